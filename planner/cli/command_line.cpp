@@ -1,0 +1,140 @@
+#include "planner/cli/command_line.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <cstdlib>
+#include <functional>
+
+#include "planner/cli/commands.h"
+#include "planner/version.h"
+#include "problems/search/store.h"
+
+namespace stillhook {
+namespace {
+
+void set_up_messages(bool quiet) {
+  // https://no-color.org: any value but the empty one
+  const char* no_color = std::getenv("NO_COLOR");
+  const auto mode = no_color && *no_color ? spdlog::color_mode::never : spdlog::color_mode::automatic;
+  auto logger =
+      std::make_shared<spdlog::logger>("stillhook", std::make_shared<spdlog::sinks::stderr_color_sink_mt>(mode));
+  logger->set_pattern("%^%l%$: %v");
+  logger->set_level(quiet ? spdlog::level::err : spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+/// The parsed command line: options and the verb to run.
+struct Request {
+  CommonOptions common;
+  PlanArguments plan;
+  int threads = 0;
+  bool reference = false;  // schema: the key reference instead
+  std::function<int()> verb;
+};
+
+void add_output_options(CLI::App& verb, Request& r) {
+  verb.add_flag("--json", r.common.json, "Print the summary as JSON on stdout");
+  verb.add_flag("--quiet", r.common.quiet, "No progress and no messages but errors");
+}
+
+void add_case_options(CLI::App& verb, Request& r) {
+  verb.add_option("CASE", r.common.input, "Case file (TOML)")->required();
+  verb.add_option("--set", r.common.sets, "Change a key of the case, e.g. --set sea.ramp_s=20; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  add_output_options(verb, r);
+}
+
+void add_run_options(CLI::App& verb, Request& r, const char* seed_help) {
+  verb.add_option("--out", r.common.out, "Folder to write into (default runs/<case>-<verb>)")->type_name("DIR");
+  verb.add_flag("--force", r.common.force, "Replace the run that the folder holds");
+  verb.add_option("--threads", r.threads, "Threads to use (default: all cores); results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  verb.add_option("--seed", r.common.seed, seed_help)->type_name("N")->check(CLI::Range(0, 2147483647));
+}
+
+void add_verbs(CLI::App& app, Request& r) {
+  CLI::App* check = app.add_subcommand("check", "Validate a case; print poses, drafts, wires, phases");
+  add_case_options(*check, r);
+  check->callback([&r] { r.verb = [&r] { return run_check(r.common); }; });
+
+  CLI::App* simulate = app.add_subcommand("simulate", "Run the operation once: metrics, limits, report");
+  add_case_options(*simulate, r);
+  add_run_options(*simulate, r, "Seed of the active irregular sea");
+  simulate->callback([&r] { r.verb = [&r] { return run_simulate(r.common); }; });
+
+  CLI::App* plan = app.add_subcommand("plan", "Search for a better operation: plan, comparison, report");
+  add_case_options(*plan, r);
+  add_run_options(*plan, r, "Seed of the search");
+  plan->add_option("--evaluations", r.plan.evaluations, "Budget of evaluations")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  plan->add_option("--time-budget", r.plan.time_budget,
+                   "Wall time for the search in s; the random search beside it may take as long again")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* resume = plan->add_flag("--resume", r.plan.resume, "Go on with the search that the folder holds");
+  resume->excludes("--force");
+  plan->callback([&r] { r.verb = [&r] { return run_plan(r.common, r.plan); }; });
+
+  CLI::App* report = app.add_subcommand("report", "Rebuild the report of a run folder");
+  report->add_option("RUN_DIR", r.common.input, "Folder that simulate or plan has written")->required();
+  report->add_flag("--quiet", r.common.quiet, "No messages but errors");
+  report->callback([&r] { r.verb = [&r] { return run_report(r.common); }; });
+
+  CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
+  schema->add_flag("--reference", r.reference, "Print the key reference (Markdown) instead");
+  schema->callback([&r] { r.verb = [&r] { return run_schema(r.reference); }; });
+}
+
+int run_verb(const Request& request) {
+  try {
+    return request.verb();
+  } catch (const CaseError& error) {
+    spdlog::error("{}", error.what());
+  } catch (const SpecificationError& error) {
+    spdlog::error("{}: {}", request.common.input, error.what());
+  } catch (const StoreError& error) {
+    spdlog::error("{}", error.what());
+  } catch (const UsageError& error) {
+    spdlog::error("{}", error.what());
+  } catch (const std::exception& error) {
+    spdlog::critical("{}\nThis is a bug in stillhook {}; please report it with the case and the command.", error.what(),
+                     kVersion);
+    return kBug;
+  }
+  return kBadInput;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app(
+      "stillhook plans the installation of offshore structures by crane vessel.\n"
+      "Exit codes: 0 done, 1 bug, 2 bad input, 3 limit violated or no plan, 4 numerical failure, 130 Ctrl-C.",
+      "stillhook");
+  app.set_version_flag("--version", std::string("stillhook ") + kVersion);
+  app.require_subcommand(1);
+  Request request;
+  add_verbs(app, request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are the only ones that succeed.
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  }
+  set_up_messages(request.common.quiet);
+  // Parallel products would split sums by the number of threads; parallelism is over scenarios.
+  Eigen::setNbThreads(1);
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  return run_verb(request);
+}
+
+}  // namespace stillhook

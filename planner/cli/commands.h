@@ -1,0 +1,64 @@
+// The verbs of the command line, one file each, and what they share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/run_folder.h"
+#include "problems/case.h"
+
+namespace stillhook {
+
+enum ExitCode : int {
+  kDone = 0,
+  kBug = 1,
+  kBadInput = 2,
+  kLimitViolated = 3,  // done, but a limit is violated or no feasible plan was found
+  kNumericalFailure = 4,
+  kInterrupted = 130  // after Ctrl-C, with what was reached so far saved
+};
+
+struct CommonOptions {
+  std::string input;              // case file; for `report` the run folder
+  std::vector<std::string> sets;  // KEY=VALUE
+  std::string out;                // empty = runs/<case>-<verb>
+  bool force = false, json = false, quiet = false;
+  std::optional<int> seed;
+};
+
+struct PlanArguments {
+  std::optional<int> evaluations;
+  std::optional<double> time_budget;  // s
+  bool resume = false;
+};
+
+int run_check(const CommonOptions& options);
+int run_simulate(const CommonOptions& options);
+int run_plan(const CommonOptions& options, const PlanArguments& arguments);
+int run_report(const CommonOptions& options);
+int run_schema(bool reference);
+
+/// The case file with every --set, and what else the verb sets on top. Throws CaseError and UsageError.
+Case load_case(const CommonOptions& options, const std::vector<Override>& more = {});
+
+/// The folder to write into: --out, or the default one.
+std::string folder_path(const CommonOptions& options, const Case& c, const std::string& verb);
+
+/// The comment that a case file opens with, without its '#': the problem in words. Empty if there is none.
+std::string statement_of(const std::string& case_file);
+
+/// The resolved case with its statement on top, as a file that read_case() takes.
+std::string case_text(const Case& c, const std::string& statement);
+
+/// Calls what writes a file; a failure (no space, no permission) becomes a UsageError with the same sentence.
+template <class F>
+void write_or_refuse(F write) {
+  try {
+    write();
+  } catch (const std::runtime_error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace stillhook

@@ -1,0 +1,42 @@
+#include <fstream>
+#include <sstream>
+
+#include "planner/cli/commands.h"
+
+namespace stillhook {
+
+Case load_case(const CommonOptions& options, const std::vector<Override>& more) {
+  std::vector<Override> overrides;
+  for (const std::string& set : options.sets) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--set " + set + ": must be KEY=VALUE, as in --set sea.ramp_s=20");
+    overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+  }
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return read_case(options.input, overrides);
+}
+
+std::string folder_path(const CommonOptions& options, const Case& c, const std::string& verb) {
+  return options.out.empty() ? default_folder(c, verb) : options.out;
+}
+
+std::string statement_of(const std::string& case_file) {
+  std::ifstream in(case_file);
+  std::string statement, line;
+  while (std::getline(in, line) && !line.empty() && line.front() == '#') {
+    line.erase(0, line.size() > 1 && line[1] == ' ' ? 2 : 1);
+    statement += line + "\n";
+  }
+  return statement;
+}
+
+std::string case_text(const Case& c, const std::string& statement) {
+  std::string text;
+  std::istringstream lines(statement);
+  for (std::string line; std::getline(lines, line);) text += line.empty() ? "#\n" : "# " + line + "\n";
+  if (!text.empty()) text += "\n";
+  return text + c.resolved;
+}
+
+}  // namespace stillhook

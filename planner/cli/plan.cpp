@@ -1,0 +1,183 @@
+#include "planner/plan.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <exception>
+
+#include "planner/cli/commands.h"
+#include "planner/cli/interrupt.h"
+#include "planner/cli/progress.h"
+#include "planner/cli/run_files.h"
+#include "planner/cli/tables.h"
+#include "planner/plan_results.h"
+#include "planner/version.h"
+#include "results/files.h"
+
+namespace stillhook {
+namespace {
+
+Case load_plan_case(const CommonOptions& options, const PlanArguments& arguments) {
+  std::vector<Override> more;
+  if (options.seed) more.push_back({"plan.seed", std::to_string(*options.seed)});
+  if (arguments.evaluations) more.push_back({"plan.evaluations", std::to_string(*arguments.evaluations)});
+  if (arguments.time_budget) more.push_back({"plan.time_budget_s", fmt::format("{:.17g}", *arguments.time_budget)});
+  return load_case(options, more);
+}
+
+void check_algorithms(const Evaluator& evaluator) {
+  const std::string fault = search_fault(evaluator.problem(), search_options(evaluator.base().plan));
+  if (!fault.empty()) throw CaseError("plan: " + fault);
+}
+
+std::string progress_text(const SearchProgress& p) {
+  const std::string best = !p.best->usable             ? "none yet"
+                           : p.best->violation() > 0.0 ? fmt::format("{:.4f}, a limit is violated", p.best->objective)
+                                                       : fmt::format("{:.4f}", p.best->objective);
+  return fmt::format("{}: evaluation {} of {}, best {}", p.stage, p.evaluations, p.budget, best);
+}
+
+/// The plan in every scenario, one after the other in the list, several at a time.
+std::vector<RunResult> run_scenarios(const Evaluator& evaluator, const Eigen::VectorXd& x) {
+  const Case planned = evaluator.case_at(x);
+  std::vector<RunResult> runs(evaluator.scenarios().size());
+  std::vector<std::exception_ptr> errors(runs.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    try {
+      runs[i] = run_lift(prepare_run(planned, specification_at(evaluator, x, i)), evaluator.base().limits);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  return runs;
+}
+
+/// Everything about the finished (or interrupted) search that goes into the folder and on the screen.
+class Conclusion {
+ public:
+  Conclusion(const CommonOptions& options, const RunFolder& folder, const Evaluator& evaluator,
+             const PlanResult& result, const std::string& statement, double wall)
+      : options_(options),
+        folder_(folder),
+        evaluator_(evaluator),
+        result_(result),
+        statement_(statement),
+        wall_(wall),
+        search_(search_section(evaluator, result, wall)) {}
+
+  int finish() {
+    if (result_.interrupted)
+      describe_best();
+    else if (result_.has_plan())
+      run_best();
+    else
+      summary_.message = "no evaluation could be completed; the last said: " + result_.search.best.message;
+    summary_.case_name = evaluator_.base().name;
+    summary_.verb = "plan";
+    summary_.program_version = kVersion;
+    summary_.wall = wall_;
+    add_search(evaluator_, result_, summary_);
+    write_or_refuse([&] { write_summary(summary_, folder_.summary()); });
+    print();
+    return exit_code();
+  }
+
+ private:
+  /// After an interruption there is no time to simulate: what the search itself knows.
+  void describe_best() {
+    summary_.status = RunStatus::interrupted;
+    summary_.message = result_.search.evaluations == 0 ? "interrupted before the first evaluation was complete"
+                                                       : "interrupted; --resume goes on from here";
+    summary_.limits = worst_limits(evaluator_, result_.search.best);
+  }
+
+  void run_best() {
+    const Eigen::VectorXd& x = result_.search.best_x;
+    const std::vector<RunResult> runs = run_scenarios(evaluator_, x);
+    const std::size_t governing = governing_scenario(evaluator_, result_.search.best);
+    const Case planned = evaluator_.case_at(x);
+    const RunResult& run = runs[governing];
+    summary_ = summary_of(run, planned, "plan");
+    std::vector<std::vector<LimitCheck>> limits;
+    for (const RunResult& r : runs) limits.push_back(r.limits);
+    summary_.limits = worst_limits(limits);
+    write_history(folder_, run, planned);
+    write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
+                     {history_note(evaluator_, governing)});
+  }
+
+  void print() const {
+    if (options_.json) {
+      fmt::print("{}\n", summary_json(summary_));
+      return;
+    }
+    if (result_.search.evaluations > 0) fmt::print("{}\n", search_text(search_));
+    if (result_.has_plan()) fmt::print("Plan: {}\n", folder_.plan());
+    if (result_.has_plan() && !result_.interrupted) fmt::print("Report: {}\n", folder_.report());
+  }
+
+  int exit_code() const {
+    if (result_.interrupted) {
+      spdlog::warn("{}", summary_.message);
+      return kInterrupted;
+    }
+    if (result_.search.feasible) return kDone;
+    if (result_.has_plan())
+      spdlog::warn("no plan within the limits was found; the best one violates the least");
+    else
+      spdlog::warn("no plan was found: {}", summary_.message);
+    return kLimitViolated;
+  }
+
+  const CommonOptions& options_;
+  const RunFolder& folder_;
+  const Evaluator& evaluator_;
+  const PlanResult& result_;
+  const std::string& statement_;
+  double wall_;
+  SearchSection search_;
+  Summary summary_;
+};
+
+}  // namespace
+
+int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::atomic<bool>& stop = catch_interrupts();
+  const Case c = load_plan_case(options, arguments);
+  const std::string statement = statement_of(options.input);
+  const Evaluator evaluator(c, &stop);
+  check_algorithms(evaluator);
+  // A baseline that cannot be built is a fault of the case; only the points of a search are graded.
+  for (std::size_t i = 0; i < evaluator.scenarios().size(); ++i)
+    prepare_run(c, specification_at(evaluator, evaluator.baseline(), i));
+
+  const RunFolder folder(folder_path(options, c, "plan"), arguments.resume ? RunFolder::Mode::resume
+                                                          : options.force  ? RunFolder::Mode::replace
+                                                                           : RunFolder::Mode::fresh);
+  EvaluationStore store(folder.store(), store_identity(c), evaluator.problem());
+  if (arguments.resume) spdlog::info("{} evaluations are in the store", store.size());
+  write_or_refuse([&] { write_file(folder.case_file(), case_text(c, statement)); });
+
+  Progress progress = stderr_progress(options.quiet);
+  PlanOptions with;
+  with.stop = &stop;
+  with.progress = [&](const SearchProgress& p) {
+    // The random sample takes as many evaluations as the search.
+    const double half = p.stage == "random search" ? 0.5 : 0.0;
+    progress.update(half + 0.5 * p.evaluations / p.budget, progress_text(p));
+  };
+  with.improved = [&](const Eigen::VectorXd& x) {
+    write_or_refuse([&] { write_file(folder.plan(), case_text(evaluator.case_at(x), statement)); });
+  };
+  const PlanResult result = solve_plan(evaluator, store, with);
+  progress.clear();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  return Conclusion(options, folder, evaluator, result, statement, wall.count()).finish();
+}
+
+}  // namespace stillhook

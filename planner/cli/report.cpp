@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "planner/cli/commands.h"
+#include "planner/cli/run_files.h"
+#include "planner/plan_results.h"
+#include "results/archive.h"
+
+namespace stillhook {
+namespace {
+
+Trajectory read_history(const RunFolder& folder) {
+  try {
+    return read_archive(folder.history());
+  } catch (const std::runtime_error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void rebuild_run(const RunFolder& folder, const Case& c, const std::string& statement) {
+  const RunResult run = judged(c.specification, read_history(folder), c.limits);
+  write_run_report(folder, run, prepare_run(c, c.specification), c, statement);
+}
+
+void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& statement) {
+  const Evaluator evaluator(c);
+  EvaluationStore store(folder.store(), store_identity(c), evaluator.problem());
+  const PlanResult result = replay_plan(evaluator, store);
+  if (!result.has_plan()) throw UsageError(folder.path() + ": its search has found no plan to report");
+  const std::size_t governing = governing_scenario(evaluator, result.search.best);
+  const Case planned = evaluator.case_at(result.search.best_x);
+  const RunResult run =
+      judged(specification_at(evaluator, result.search.best_x, governing), read_history(folder), c.limits);
+  const SearchSection search = search_section(evaluator, result, SearchSection::kNone);
+  write_run_report(folder, run, prepare_run(planned, run.specification), planned, statement, &search,
+                   {history_note(evaluator, governing)});
+}
+
+}  // namespace
+
+int run_report(const CommonOptions& options) {
+  if (!std::filesystem::exists(options.input)) throw UsageError(options.input + ": there is no such folder");
+  const RunFolder folder(options.input, RunFolder::Mode::resume);
+  for (const std::string& file : {folder.case_file(), folder.history()})
+    if (!std::filesystem::exists(file))
+      throw UsageError(file + ": is missing, this is not the folder of a finished run");
+  const Case c = read_case(folder.case_file());
+  const std::string statement = statement_of(folder.case_file());
+  if (std::filesystem::exists(folder.store()))
+    rebuild_plan(folder, c, statement);
+  else
+    rebuild_run(folder, c, statement);
+  fmt::print("{}\n", folder.report());
+  return kDone;
+}
+
+}  // namespace stillhook

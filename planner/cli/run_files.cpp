@@ -1,0 +1,34 @@
+#include "planner/cli/run_files.h"
+
+#include "planner/cli/commands.h"
+#include "planner/static_tables.h"
+#include "planner/version.h"
+#include "results/archive.h"
+
+namespace stillhook {
+
+void write_history(const RunFolder& folder, const RunResult& run, const Case& c) {
+  const ArchiveTitle title{c.title.empty() ? c.name : c.title, std::string("stillhook ") + kVersion,
+                           run.specification.sea.active};
+  write_or_refuse([&] { write_archive(run.trajectory, title, folder.history()); });
+}
+
+void write_run_report(const RunFolder& folder, const RunResult& run, const PreparedRun& prepared, const Case& c,
+                      const std::string& statement, const SearchSection* search, std::vector<std::string> notes) {
+  const std::vector<StaticPose> poses = solve_poses(prepared.model);
+  const ReportData data{c.title.empty() ? c.name : c.title,
+                        statement,
+                        c.resolved,
+                        kVersion,
+                        run.specification,
+                        run.trajectory,
+                        run.metrics,
+                        run.limits,
+                        std::move(notes),
+                        poses,
+                        static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation)),
+                        search};
+  write_or_refuse([&] { write_report(data, folder.report()); });
+}
+
+}  // namespace stillhook

@@ -1,0 +1,84 @@
+#include "planner/cli/tables.h"
+
+#include <fmt/format.h>
+
+#include "planner/cli/text_table.h"
+#include "planner/text_number.h"
+
+namespace stillhook {
+namespace {
+
+std::string verdict(const LimitCheck& check) { return check.pass ? "ok" : check.hard ? "FAIL" : "warning"; }
+
+std::string terms_text(const SearchSection& s) {
+  TextTable table({"term", "unit", "weight / scale", "baseline", "plan", "baseline part", "plan part"});
+  for (const SearchSection::Term& t : s.terms)
+    table.add({t.metric, t.unit, fmt::format("{:g} / {:g}", t.weight, t.scale), short_number(t.baseline_value),
+               short_number(t.plan_value), cell(t.baseline_contribution, 4), cell(t.plan_contribution, 4)});
+  table.add({"objective", "", "", "", "", cell(s.baseline_objective, 4), cell(s.plan_objective, 4)});
+  return "Objective, mean or worst of the scenarios as the case says\n" + table.text();
+}
+
+std::string comparison_text(const SearchSection& s) {
+  TextTable table({"", "objective", "within limits"});
+  const auto add = [&](const char* name, double objective, bool feasible) {
+    table.add({name, cell(objective, 4), feasible ? "yes" : "no"});
+  };
+  add("baseline", s.baseline_objective, s.baseline_feasible);
+  add("plan", s.plan_objective, s.plan_feasible);
+  add("random search", s.random_objective, s.random_feasible);
+  return fmt::format("After {} evaluations ({}; {:g} simulations), random search with as many\n{}", s.evaluations,
+                     s.algorithm, s.simulation_equivalents, table.text());
+}
+
+std::string variables_text(const SearchSection& s) {
+  TextTable table({"variable", "from", "to", "baseline", "plan"});
+  for (const SearchSection::Variable& v : s.variables)
+    table.add({v.key, short_number(v.lower), short_number(v.upper), short_number(v.baseline), short_number(v.plan)});
+  return "Variables, in the unit of their key\n" + table.text();
+}
+
+std::string limits_comparison_text(const SearchSection& s) {
+  TextTable table({"limit", "unit", "bound", "baseline", "", "plan", ""});
+  for (std::size_t i = 0; i < s.plan_limits.size() && i < s.baseline_limits.size(); ++i) {
+    const LimitCheck &before = s.baseline_limits[i], &after = s.plan_limits[i];
+    table.add({after.metric, after.unit, fmt::format("{} {:g}", after.is_max ? "<=" : ">=", after.limit),
+               short_number(before.value), verdict(before), short_number(after.value), verdict(after)});
+  }
+  return table.empty() ? "" : "Limits, worst scenario of each\n" + table.text();
+}
+
+}  // namespace
+
+std::string table_text(const ReportTable& table) {
+  TextTable text(table.header);
+  for (const std::vector<std::string>& row : table.rows) text.add(row);
+  return table.title + "\n" + text.text() + (table.note.empty() ? "" : "  " + table.note + "\n");
+}
+
+std::string metrics_text(const Metrics& metrics) {
+  TextTable table({"metric", "value", "unit", "time s", "phase"});
+  for (const Metric& m : metrics.items) {
+    const MetricDefinition* definition = metric_definition(m.name);
+    if (definition && !definition->element.empty()) continue;
+    table.add({m.name, short_number(m.value), m.unit, cell(m.time, 1), m.phase});
+  }
+  return "Metrics\n" + table.text();
+}
+
+std::string limits_text(const std::vector<LimitCheck>& limits) {
+  if (limits.empty()) return "The case has no limits.\n";
+  TextTable table({"limit", "unit", "bound", "value", "margin", "verdict", "time s", "phase"});
+  for (const LimitCheck& c : limits)
+    table.add({c.metric, c.unit, fmt::format("{} {:g}", c.is_max ? "<=" : ">=", c.limit), short_number(c.value),
+               short_number(c.margin), verdict(c), cell(c.time, 1), c.phase});
+  return "Limits\n" + table.text();
+}
+
+std::string search_text(const SearchSection& s) {
+  std::string text = terms_text(s) + "\n" + comparison_text(s) + "\n" + variables_text(s);
+  const std::string limits = limits_comparison_text(s);
+  return limits.empty() ? text : text + "\n" + limits;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,39 @@
+#include "planner/cli/text_table.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace stillhook {
+namespace {
+
+/// Characters, not bytes, of UTF-8 text.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string TextTable::text() const {
+  std::vector<std::size_t> widths(rows_.front().size(), 0);
+  for (const auto& row : rows_)
+    for (std::size_t i = 0; i < row.size() && i < widths.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  std::string out;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < rows_[r].size() && i < widths.size(); ++i) {
+      const std::string fill(widths[i] - width(rows_[r][i]), ' ');
+      line += i == 0 ? " " + rows_[r][i] + fill : "  " + fill + rows_[r][i];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+    if (r == 0) {
+      std::size_t total = 0;
+      for (const std::size_t w : widths) total += w + 2;
+      out += "  " + std::string(total - 2, '-') + "\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace stillhook

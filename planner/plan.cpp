@@ -1,0 +1,132 @@
+#include "planner/plan.h"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <set>
+
+#include "planner/version.h"
+#include "problems/case_document.h"
+#include "problems/search/random_search.h"
+
+namespace stillhook {
+namespace {
+
+/// FNV-1a, 64 bit, of a file's content, in hexadecimal. It tells a changed file from an unchanged one; it need not
+/// withstand an attack.
+std::string content_hash(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw CaseError(path + ": cannot be read");
+  std::uint64_t hash = 14695981039346656037ull;
+  for (std::istreambuf_iterator<char> it(in), end; it != end; ++it) {
+    hash ^= static_cast<unsigned char>(*it);
+    hash *= 1099511628211ull;
+  }
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash >> shift) & 0xf];
+  return text;
+}
+
+/// Counts the different points that pass through a problem.
+class DistinctPoints {
+ public:
+  SearchProblem watch(const SearchProblem& problem) {
+    SearchProblem watched = problem;
+    watched.evaluate = [this, evaluate = problem.evaluate](const Eigen::VectorXd& x) {
+      {
+        const std::lock_guard lock(mutex_);
+        points_.insert(std::vector<double>(x.begin(), x.end()));
+      }
+      return evaluate(x);
+    };
+    return watched;
+  }
+  int count() const { return static_cast<int>(points_.size()); }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::vector<double>> points_;
+};
+
+PlanResult::Point point_of(const Evaluation& e) {
+  return {e.usable ? e.objective : std::numeric_limits<double>::quiet_NaN(), e.usable && e.violation() <= 0.0};
+}
+
+PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem, EvaluationStore& store,
+                        const PlanOptions& options) {
+  SearchOptions search_with = search_options(evaluator.base().plan);
+  if (const std::string fault = search_fault(problem, search_with); !fault.empty()) throw CaseError("plan: " + fault);
+
+  PlanResult result;
+  search_with.stop = options.stop;
+  search_with.progress = [&](const SearchProgress& p) {
+    if (p.evaluations == 1) result.baseline = *p.last;
+    result.history.push_back(point_of(*p.last));
+    if (p.improved && p.best->usable && options.improved) options.improved(*p.best_x);
+    if (options.progress) options.progress(p);
+  };
+  DistinctPoints asked;
+  result.search = search(asked.watch(with_store(problem, store, "search")), search_with);
+  result.distinct = asked.count();
+  result.interrupted = result.search.status == SearchStatus::interrupted;
+  if (result.interrupted || result.search.evaluations == 0) return result;
+
+  SearchOptions sample_with = search_with;
+  sample_with.evaluations = result.search.evaluations;
+  sample_with.progress = options.progress;
+  result.random = random_search(with_store(problem, store, "random"), sample_with);
+  result.interrupted = result.random.status == SearchStatus::interrupted;
+  // In the order of the sample, whichever thread was first.
+  for (int i = 0; i < sample_with.evaluations; ++i)
+    if (const auto known = store.find(random_point(problem, sample_with.seed, i)))
+      result.random_history.push_back(point_of(*known));
+  return result;
+}
+
+}  // namespace
+
+SearchOptions search_options(const PlanSpec& plan) {
+  SearchOptions options;
+  options.global_algorithm = plan.global_algorithm == "none" ? "" : plan.global_algorithm;
+  options.local_algorithm = plan.local_algorithm == "none" ? "" : plan.local_algorithm;
+  options.global_share = plan.global_share;
+  options.evaluations = plan.evaluations;
+  options.time_budget = plan.time_budget;
+  options.seed = static_cast<unsigned long>(plan.seed);
+  // The verdict on the finished plan knows no tolerance either.
+  options.constraint_tolerance = 0.0;
+  return options;
+}
+
+StoreIdentity store_identity(const Case& c) {
+  Node document = parse_document(c.resolved, c.file);
+  if (Node* plan = document.find("plan"))
+    for (const char* key :
+         {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm"})
+      plan->remove(key);
+  StoreIdentity identity;
+  identity.version = kVersion;
+  identity.problem = write_document(document);
+  for (const BodySpec& body : c.specification.bodies)
+    for (const std::string& file : {body.hull.mesh_file, body.hydrodynamics.coefficient_file})
+      if (!file.empty()) identity.problem += "# " + file + " " + content_hash(file) + "\n";
+  return identity;
+}
+
+PlanResult solve_plan(const Evaluator& evaluator, EvaluationStore& store, const PlanOptions& options) {
+  return run_searches(evaluator, evaluator.problem(), store, options);
+}
+
+PlanResult replay_plan(const Evaluator& evaluator, EvaluationStore& store) {
+  SearchProblem problem = evaluator.problem();
+  problem.evaluate = [](const Eigen::VectorXd&) {
+    Evaluation unknown;
+    unknown.interrupted = true;
+    return unknown;
+  };
+  return run_searches(evaluator, problem, store, {});
+}
+
+}  // namespace stillhook

@@ -1,0 +1,49 @@
+// One simulated run of a lift, judged.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "problems/case.h"
+#include "results/summary.h"
+#include "sim/simulate.h"
+
+namespace stillhook {
+
+struct RunResult {
+  Specification specification;  // as simulated
+  Trajectory trajectory;
+  Metrics metrics;
+  std::vector<LimitCheck> limits;
+
+  /// Completed and no hard limit violated.
+  bool passed() const { return within_limits(metrics, limits); }
+};
+
+/// A lift built and its operation worked out, ready to simulate. Throws SpecificationError.
+struct PreparedRun {
+  explicit PreparedRun(const Specification& specification)
+      : model(build_model(specification)), operation(build_operation(model)) {}
+  Model model;
+  Operation operation;
+};
+
+/// The specification, which is the case's or a change of it, ready to simulate. Throws CaseError with the place in the
+/// case file when it cannot be built.
+PreparedRun prepare_run(const Case& c, const Specification& specification);
+
+/// Simulates and judges. `stop`, when set from outside, interrupts at the next call of `progress` (t and planned end,
+/// s), which may be empty.
+RunResult run_lift(const PreparedRun& prepared, const std::vector<LimitSpec>& limits,
+                   const std::atomic<bool>* stop = nullptr,
+                   const std::function<void(double t, double t_end)>& progress = {});
+
+/// Judges a trajectory that was simulated before.
+RunResult judged(const Specification& specification, Trajectory trajectory, const std::vector<LimitSpec>& limits);
+
+/// The summary of a run, with names and version filled in.
+Summary summary_of(const RunResult& run, const Case& c, const std::string& verb);
+
+}  // namespace stillhook

@@ -1,0 +1,58 @@
+#include "planner/run_folder.h"
+
+#include <array>
+#include <filesystem>
+
+namespace stillhook {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kFiles = {"case.toml",
+                               "summary.json",
+                               "history.nc",
+                               "report.html",
+                               "plan.toml",
+                               "evaluations.sqlite",
+                               "evaluations.sqlite-wal",
+                               "evaluations.sqlite-shm"};
+
+bool holds_a_run(const fs::path& path) {
+  return fs::exists(path / "case.toml") || fs::exists(path / "summary.json") || fs::exists(path / "evaluations.sqlite");
+}
+
+void prepare(const fs::path& path, RunFolder::Mode mode) {
+  const std::string name = path.string();
+  const bool exists = fs::exists(path);
+  if (exists && !fs::is_directory(path)) throw UsageError(name + ": is a file, a run needs a folder");
+  const bool occupied = exists && !fs::is_empty(path);
+  switch (mode) {
+    case RunFolder::Mode::fresh:
+      if (occupied) throw UsageError(name + ": exists already; use --force to replace the run in it, or another --out");
+      break;
+    case RunFolder::Mode::replace:
+      if (occupied && !holds_a_run(path))
+        throw UsageError(name + ": holds files but no run of stillhook; --force does not touch it, use another --out");
+      for (const char* file : kFiles) fs::remove(path / file);
+      break;
+    case RunFolder::Mode::resume:
+      if (!exists) throw UsageError(name + ": does not exist, there is nothing to resume");
+      break;
+  }
+  fs::create_directories(path);
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::string path, Mode mode) : path_(std::move(path)) {
+  while (path_.size() > 1 && path_.back() == '/') path_.pop_back();
+  try {
+    prepare(path_, mode);
+  } catch (const fs::filesystem_error& error) {
+    throw UsageError(path_ + ": " + error.code().message());
+  }
+}
+
+std::string default_folder(const Case& c, const std::string& verb) { return "runs/" + c.name + "-" + verb; }
+
+}  // namespace stillhook

@@ -1,0 +1,45 @@
+// The folder that a run leaves: case.toml, summary.json, history.nc, report.html and, for searches, plan.toml and
+// evaluations.sqlite. Every file but the store is written whole or not at all.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "problems/case.h"
+
+namespace stillhook {
+
+/// The command line asks for something that cannot be done. what() is a sentence.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class RunFolder {
+ public:
+  enum class Mode {
+    fresh,    // must not exist yet (or be empty)
+    replace,  // what a former run left in it is removed; other files stay
+    resume    // must exist and is gone on with
+  };
+
+  /// Makes or opens the folder. Throws UsageError: it exists (fresh), holds something that is no run (replace), does
+  /// not exist (resume), or cannot be made.
+  RunFolder(std::string path, Mode mode);
+
+  const std::string& path() const { return path_; }
+  std::string case_file() const { return path_ + "/case.toml"; }
+  std::string summary() const { return path_ + "/summary.json"; }
+  std::string history() const { return path_ + "/history.nc"; }
+  std::string report() const { return path_ + "/report.html"; }
+  std::string plan() const { return path_ + "/plan.toml"; }
+  std::string store() const { return path_ + "/evaluations.sqlite"; }
+
+ private:
+  std::string path_;
+};
+
+/// runs/<case>-<verb>
+std::string default_folder(const Case& c, const std::string& verb);
+
+}  // namespace stillhook

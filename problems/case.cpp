@@ -1,0 +1,127 @@
+#include "problems/case.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/core.h>
+
+#include "problems/case_checks.h"
+#include "problems/case_document.h"
+#include "problems/case_format.h"
+#include "problems/case_key.h"
+#include "problems/case_reader.h"
+
+namespace stillhook {
+namespace {
+
+Node document_of(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  Node root = parse_document(text, file);
+  for (const Override& setting : overrides) {
+    const std::string origin = "--set " + setting.key + "=" + setting.value;
+    Node value = parse_value(setting.key, setting.value);
+    value.position = {origin, 1, 1};
+    try {
+      set_key(root, setting.key, value);
+    } catch (const KeyError& error) {
+      throw CaseError(origin + ": " + error.what());
+    }
+  }
+  return root;
+}
+
+std::string written(double value) {
+  std::string text = fmt::format("{}", value);  // shortest form that reads back to the same bits
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+}  // namespace
+
+Case read_case_text(const std::string& text, const std::string& name, const std::string& directory,
+                    const std::vector<Override>& overrides) {
+  Node root = document_of(text, name, overrides);
+  Case c;
+  c.directory = directory;
+  c.file = name;
+  c.text = text;
+  c.overrides = overrides;
+  Findings findings(name);
+  TableReader reader(directory, findings);
+  reader.read(case_table(), root, &c, {});
+  check_names(c, root, reader.references(), findings);
+  findings.throw_if_any();  // what follows takes every key and name for good
+  check_lift(c, root, findings);
+  check_plan(c, root, findings);
+  findings.throw_if_any();
+  if (c.title.empty()) c.title = c.name;
+  c.specification.name = c.name;
+  for (JointSpec& joint : c.specification.joints) joint.axis.normalize();
+  for (MooringSpec& mooring : c.specification.moorings)
+    if (!mooring.tow.empty()) mooring.tow_direction.normalize();
+  c.resolved = write_document(root);
+  return c;
+}
+
+Case read_case(const std::string& path, const std::vector<Override>& overrides) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw CaseError(path + ": is a folder, not a case file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw CaseError(path + ": cannot be read: " + std::strerror(errno));
+  std::ostringstream text;
+  text << in.rdbuf();
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return read_case_text(text.str(), path, folder.empty() ? "." : folder.string(), overrides);
+}
+
+double key_value(const Case& c, const std::string& key) {
+  Node root = document_of(c.text, c.file, c.overrides);
+  try {
+    std::optional<double> common;
+    for (const KeyTarget& target : find_targets(root, key)) {
+      const std::optional<double> value = number_at(target);
+      if (!value) throw CaseError(fmt::format("{}: {}: has no number in this case", c.file, key));
+      if (common && *common != *value)
+        throw CaseError(fmt::format("{}: {}: leads to different values, {} and {}", c.file, key, *common, *value));
+      common = value;
+    }
+    return *common;  // find_targets finds at least one or throws
+  } catch (const KeyError& error) {
+    throw CaseError(fmt::format("{}: {}: {}", c.file, key, error.what()));
+  }
+}
+
+Case with_values(const Case& c, const std::vector<std::pair<std::string, double>>& values) {
+  std::vector<Override> overrides = c.overrides;
+  for (const auto& [key, value] : values) {
+    if (!std::isfinite(value))
+      throw CaseError(fmt::format("{}: {}: must be a finite number, got {}", c.file, key, value));
+    overrides.erase(
+        std::remove_if(overrides.begin(), overrides.end(), [k = key](const Override& o) { return o.key == k; }),
+        overrides.end());
+    overrides.push_back({key, written(value)});
+  }
+  return read_case_text(c.text, c.file, c.directory, overrides);
+}
+
+CaseError located(const Case& c, const SpecificationError& error) {
+  const Node root = document_of(c.text, c.file, c.overrides);
+  const std::string& entry = error.entry;
+  Position position = position_of_key(root, entry, error.field);
+  const std::string prefix = entry + (error.field.empty() ? "" : "." + error.field) + ": ";
+  std::string sentence = error.what();
+  if (sentence.compare(0, prefix.size(), prefix) == 0) sentence.erase(0, prefix.size());
+  Findings findings(c.file);
+  findings.add(position, entry, error.field, sentence);
+  try {
+    findings.throw_if_any();
+  } catch (const CaseError& located_error) {
+    return located_error;
+  }
+  return CaseError(sentence);
+}
+
+}  // namespace stillhook

@@ -1,0 +1,97 @@
+// A case: everything one TOML document asks for. Lift, limits and the plan to search for.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/limits.h"
+#include "sim/specification.h"
+
+namespace stillhook {
+
+/// One term of the objective: weight * metric / scale.
+struct ObjectiveTerm {
+  std::string metric;
+  double weight = 1.0;
+  double scale = 1.0;  // in the metric's unit: the size of a unit step, makes terms comparable
+};
+
+/// A case key that the search may change. Bounds in the unit of the key.
+struct VariableSpec {
+  std::string key;     // e.g. "taglines.*.kp_kN_per_deg" or "operation.phases.hoist_up.moves.hoist.speed_m_per_min"
+  double lower = 0.0, upper = 0.0;
+  bool logarithmic = false;
+};
+
+/// One condition that a plan is evaluated in: a sea state with changes.
+struct ScenarioSpec {
+  std::string name;
+  std::string sea;                       // name of a sea state
+  std::optional<double> heading;         // rad
+  std::optional<double> phase;           // rad, regular waves
+  std::optional<int> seed;               // irregular waves
+  double weight = 1.0;
+};
+
+struct PlanSpec {
+  enum class Aggregate { mean, worst };
+  std::vector<ObjectiveTerm> objective;
+  std::vector<VariableSpec> variables;
+  std::vector<ScenarioSpec> scenarios;
+  Aggregate aggregate = Aggregate::mean;  // of the objective over scenarios; limits hold in every scenario
+  std::string global_algorithm = "isres";  // NLopt names, lower case, as in the docs
+  std::string local_algorithm = "cobyla";
+  double global_share = 0.5;             // of the evaluations
+  int evaluations = 60;                  // budget
+  double time_budget = 0.0;              // s of wall time, 0 = none (a time budget gives up reproducibility)
+  int seed = 1;
+};
+
+/// --set KEY=VALUE: a dotted key, with the names of array entries as steps and "*" for all of them, and a TOML value.
+struct Override {
+  std::string key;
+  std::string value;
+};
+
+struct Case {
+  std::string name;
+  std::string title;
+  std::string directory;                 // of the case file; relative file names start here
+  Specification specification;
+  std::vector<LimitSpec> limits;
+  PlanSpec plan;
+  std::string resolved;                  // the document as used: the file plus every --set, as TOML text; names files
+                                         // by absolute paths, so that it can be read from any folder
+  std::string file;                      // what messages call the case file
+  std::string text;                      // the file as it was read ...
+  std::vector<Override> overrides;       // ... and what was set on top
+};
+
+/// Bad input: what, where, which rule, which value. what() is the whole sentence, e.g.
+/// "calm.toml:2:1: [sea] tp_s: must be > 0 s, got -3".
+class CaseError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads and checks a case file. Throws CaseError; collects every error it can (up to 20) before throwing, one per line.
+Case read_case(const std::string& path, const std::vector<Override>& overrides = {});
+
+/// The same from text; `name` stands for the file in messages, `directory` for its folder.
+Case read_case_text(const std::string& text, const std::string& name, const std::string& directory,
+                    const std::vector<Override>& overrides = {});
+
+/// Value of a numeric key in its own unit, as read or by default. With "*", all must be equal.
+double key_value(const Case& c, const std::string& key);
+
+/// The error that build_model() found, as a sentence about the case: with the place of the entry and field it names, as
+/// far as the case has them.
+CaseError located(const Case& c, const SpecificationError& error);
+
+/// The case with numeric keys changed (values in the keys' units) and read again.
+Case with_values(const Case& c, const std::vector<std::pair<std::string, double>>& values);
+
+}  // namespace stillhook

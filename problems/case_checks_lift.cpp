@@ -1,0 +1,309 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/core.h>
+
+#include "problems/case_checks.h"
+#include "problems/case_key.h"
+
+namespace stillhook {
+namespace {
+
+class LiftCheck {
+ public:
+  LiftCheck(const Case& c, const Node& root, Findings& findings)
+      : spec_(c.specification), root_(root), findings_(findings) {}
+
+  void run() {
+    for (const BodySpec& body : spec_.bodies) check_body(body);
+    for (const JointSpec& joint : spec_.joints) check_joint(joint);
+    for (const WireSpec& wire : spec_.wires) check_wire(wire);
+    for (const TaglineSpec& tagline : spec_.taglines) check_tagline(tagline);
+    for (const MooringSpec& mooring : spec_.moorings) check_mooring(mooring);
+    for (const ContactSpec& contact : spec_.contacts) check_contact(contact);
+    for (const BallastSpec& ballast : spec_.ballast)
+      wants_kind("ballast." + ballast.name, "drive", ballast.drive, DriveSpec::Kind::ballast);
+    for (const DriveSpec& drive : spec_.drives) check_used(drive);
+    for (const SeaStateSpec& state : spec_.sea.states) check_sea(state);
+    for (const PhaseSpec& phase : spec_.operation.phases) check_phase(phase);
+    for (const PoseSpec& pose : spec_.poses) check_pose(pose);
+    for (const ClearanceSpec& clearance : spec_.clearances)
+      if (clearance.a.body == clearance.b.body)
+        report("clearances." + clearance.name, "b.body", "is the same body as that of a");
+    check_solver();
+  }
+
+ private:
+  void report(const std::string& entry, const std::string& key, const std::string& sentence) {
+    findings_.add(position_of_key(root_, entry, key), entry, key, sentence);
+  }
+  bool written(const std::string& entry, const std::string& key) const {
+    return find_key(root_, entry, key) != nullptr;
+  }
+
+  std::string written_of(const std::string& entry, const std::vector<std::string>& keys) const {
+    for (const std::string& key : keys)
+      if (written(entry, key)) return key;
+    return {};
+  }
+
+  const DriveSpec* drive(const std::string& name) const { return named(spec_.drives, name); }
+  const JointSpec* joint(const std::string& name) const { return named(spec_.joints, name); }
+  template <class Entries>
+  static auto named(const Entries& entries, const std::string& name) -> decltype(&entries.front()) {
+    for (const auto& entry : entries)
+      if (entry.name == name) return &entry;
+    return nullptr;
+  }
+
+  static std::string kind_text(DriveSpec::Kind kind) {
+    switch (kind) {
+      case DriveSpec::Kind::winch:
+        return "winch";
+      case DriveSpec::Kind::ballast:
+        return "ballast";
+      case DriveSpec::Kind::tow:
+        return "tow";
+      case DriveSpec::Kind::joint:
+        return "joint";
+    }
+    return {};
+  }
+
+  void wants_kind(const std::string& entry, const std::string& key, const std::string& name, DriveSpec::Kind kind) {
+    const DriveSpec* found = drive(name);
+    if (found && found->kind != kind)
+      report(entry, key,
+             fmt::format("must name a drive of kind \"{}\", \"{}\" is a \"{}\"", kind_text(kind), name,
+                         kind_text(found->kind)));
+  }
+
+  void wants_direction(const std::string& entry, const std::string& key, const Vector3& direction) {
+    if (!(direction.norm() > 0.0)) report(entry, key, "must not be [0, 0, 0]");
+  }
+
+  void check_body(const BodySpec& body) {
+    const std::string entry = "bodies." + body.name;
+    const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(body.inertia).eigenvalues();  // ascending
+    const std::string principal = fmt::format("principal moments {:.6g}, {:.6g}, {:.6g} t m2", moments[0] / 1e3,
+                                              moments[1] / 1e3, moments[2] / 1e3);
+    const std::string key = written(entry, "inertia_t_m2") ? "inertia_t_m2" : "gyration_m";
+    if (!(moments[0] > 0.0))
+      report(entry, key, "must be positive definite, got " + principal);
+    else if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-4))  // input rounded to a few digits
+      report(entry, key, "no body has a moment larger than the other two together, got " + principal);
+    check_hull(body, entry);
+    if (spec_.solver.static_start)
+      for (const char* velocity : {"velocity_m_per_s", "angular_velocity_deg_per_s"})
+        if (written(entry, velocity)) report(entry, velocity, "has a meaning only with solver.static_start = false");
+  }
+
+  void check_hull(const BodySpec& body, const std::string& entry) {
+    using Kind = HydrodynamicsSpec::Kind;
+    const HydrodynamicsSpec& h = body.hydrodynamics;
+    if (body.hull.shape == HullSpec::Shape::none && h.kind != Kind::none)
+      report(entry + ".hydrodynamics", "kind", "needs a [bodies.hull] of the same body");
+    if (h.kind == Kind::constant) {
+      if (h.added_mass.isZero(0.0))
+        report(entry + ".hydrodynamics", "kind", "\"constant\" needs added_mass_t or added_mass_matrix_t_m");
+      if (!h.added_mass.isApprox(h.added_mass.transpose(), 1e-6))
+        report(entry + ".hydrodynamics", "added_mass_matrix_t_m", "must be symmetric");
+      for (const auto& [matrix, pieces] : {std::pair{"added_mass_matrix_t_m", "added_inertia_t_m2"},
+                                           std::pair{"damping_matrix_kN_s_m", "angular_damping_kN_m_s_per_rad"}})
+        if (written(entry + ".hydrodynamics", matrix) && written(entry + ".hydrodynamics", pieces))
+          report(entry + ".hydrodynamics", pieces, fmt::format("cannot stand beside \"{}\", give one of them", matrix));
+    }
+  }
+
+  void check_joint(const JointSpec& j) {
+    const std::string entry = "joints." + j.name;
+    if (j.parent == j.child)
+      report(entry, "child", fmt::format("must be another body than the parent \"{}\"", j.parent));
+    if (j.type == JointSpec::Type::revolute || j.type == JointSpec::Type::prismatic)
+      wants_direction(entry, "axis", j.axis);
+    if (j.drive.empty()) return;
+    wants_kind(entry, "drive", j.drive, DriveSpec::Kind::joint);
+    if (!(j.stiffness > 0.0)) report(entry, "drive", "needs a stiffness of the joint to act through");
+  }
+
+  void check_wire(const WireSpec& w) {
+    const std::string entry = "wires." + w.name;
+    if (w.from == w.to) report(entry, "to", fmt::format("must be another body than from, both are \"{}\"", w.from));
+    if (w.damping_ratio > 0.0 && !(w.damping_mass > 0.0)) report(entry, "damping_ratio", "needs damping_mass_t");
+    if (!w.winch.empty()) wants_kind(entry, "winch", w.winch, DriveSpec::Kind::winch);
+    if (w.breaking_load > 0.0 && w.tension_max > w.breaking_load)
+      report(entry, "tension_max_kN",
+             fmt::format("must be at most the breaking load {:.6g} kN, got {:.6g}", w.breaking_load / 1e3,
+                         w.tension_max / 1e3));
+    const JointSpec* held = w.hold_joint.empty() ? nullptr : joint(w.hold_joint);
+    if (held && held->type != JointSpec::Type::revolute && held->type != JointSpec::Type::prismatic)
+      report(entry, "hold_joint",
+             fmt::format("must be a revolute or prismatic joint, \"{}\" has no coordinate", held->name));
+  }
+
+  void check_tagline(const TaglineSpec& t) {
+    const std::string entry = "taglines." + t.name;
+    if (t.from == t.to) report(entry, "to", fmt::format("must be another body than from, both are \"{}\"", t.from));
+    if (t.pretension > t.tension_max)
+      report(entry, "pretension_kN",
+             fmt::format("must be at most tension_max_kN {:.6g}, got {:.6g}", t.tension_max / 1e3, t.pretension / 1e3));
+    const WireSpec* wire = named(spec_.wires, t.wire);
+    if (wire && wire->role != WireSpec::Role::hoist)
+      report(entry, "wire", fmt::format("must be a wire with role = \"hoist\", \"{}\" is not", t.wire));
+  }
+
+  void check_mooring(const MooringSpec& m) {
+    const std::string entry = "moorings." + m.name;
+    if (m.type == MooringSpec::Type::catenary && !(spec_.sea.depth > 0.0))
+      report(entry, "type", "\"catenary\" needs sea.depth_m");
+    if (m.type == MooringSpec::Type::catenary && !(m.pretension > 0.0))
+      report(entry, "pretension_kN", "must be > 0 kN, got 0");
+    if (m.tow.empty()) {
+      if (m.tow_direction.norm() > 0.0) report(entry, "tow_direction", "needs tow, the drive that moves the far end");
+      return;
+    }
+    wants_kind(entry, "tow", m.tow, DriveSpec::Kind::tow);
+    if (!written(entry, "tow_direction"))
+      report(entry, "tow", "needs tow_direction");
+    else
+      wants_direction(entry, "tow_direction", m.tow_direction);
+  }
+
+  void check_contact(const ContactSpec& contact) {
+    if (contact.body == contact.surface_body)
+      report("contacts." + contact.name, "surface_body", fmt::format("must be another body than \"{}\"", contact.body));
+  }
+
+  void check_used(const DriveSpec& d) {
+    const auto moves = [&d](const auto& entries, auto member) {
+      return std::any_of(entries.begin(), entries.end(), [&](const auto& e) { return e.*member == d.name; });
+    };
+    if (!moves(spec_.wires, &WireSpec::winch) && !moves(spec_.joints, &JointSpec::drive) &&
+        !moves(spec_.moorings, &MooringSpec::tow) && !moves(spec_.ballast, &BallastSpec::drive))
+      report("drives." + d.name, "", "moves nothing: no wire, joint, mooring or ballast names it");
+  }
+
+  void check_sea(const SeaStateSpec& state) {
+    if (state.directions > 1 && !(state.spreading > 0.0))
+      report("sea.states." + state.name, "directions", "more than 1 needs spreading > 0");
+  }
+
+  /// The unit that a position, travel or speed of this drive is given in.
+  std::string unit_of(const DriveSpec& d) const {
+    if (d.kind == DriveSpec::Kind::ballast) return "share";
+    if (d.kind != DriveSpec::Kind::joint) return "m";
+    for (const JointSpec& j : spec_.joints)
+      if (j.drive == d.name) return j.type == JointSpec::Type::revolute ? "deg" : "m";
+    return "m";
+  }
+
+  /// Of the written keys of an entry, those that carry the wrong unit for its drive.
+  void check_drive_units(const std::string& entry, const std::string& name,
+                         const std::vector<std::string>& quantities) {
+    const DriveSpec* d = drive(name);
+    if (!d) return;
+    const std::string right = unit_of(*d);
+    for (const std::string& quantity : quantities)
+      for (const char* suffix : {"m", "m_per_min", "m_per_s", "deg", "deg_per_s", "share", "share_per_min"}) {
+        const std::string key = quantity + "_" + suffix,
+                          unit = std::string(suffix).substr(0, std::string(suffix).find('_'));
+        if (unit != right && written(entry, key))
+          report(entry, key,
+                 fmt::format("does not fit drive \"{}\": it moves in {}", name, right == "share" ? "shares" : right));
+      }
+  }
+
+  void check_goal(const std::string& entry, const CoordinateSpec& c) {
+    std::string right = "value_m";
+    if (!c.wire.empty()) right = "value_kN";
+    if (const JointSpec* j = c.joint.empty() ? nullptr : joint(c.joint)) {
+      if (j->type != JointSpec::Type::revolute && j->type != JointSpec::Type::prismatic)
+        report(entry, "joint", fmt::format("must be a revolute or prismatic joint, \"{}\" has no coordinate", j->name));
+      if (j->type == JointSpec::Type::revolute) right = "value_deg";
+    }
+    for (const char* key : {"value_m", "value_deg", "value_kN"})
+      if (key != right && written(entry, key))
+        report(entry, key, "wrong unit for what is measured: write \"" + right + "\"");
+    if (c.body.empty())
+      for (const char* key : {"point_m", "axis", "relative_to"})
+        if (written(entry, key)) report(entry, key, "has a meaning only with body");
+    if (!c.body.empty() && c.body == c.relative_to)
+      report(entry, "relative_to", fmt::format("must be another body than \"{}\"", c.body));
+  }
+
+  void check_phase(const PhaseSpec& phase) {
+    const std::string entry = "operation.phases." + phase.name;
+    if (phase.moves.empty() && !(phase.duration > 0.0))
+      report(entry, "", "has neither moves nor a duration: give duration_s or [[operation.phases.moves]]");
+    for (const MoveSpec& move : phase.moves) {
+      const std::string here = entry + ".moves." + move.drive;
+      check_drive_units(here, move.drive, {"speed", "travel"});
+      if (move.goal) check_goal(here + ".goal", *move.goal);
+      if (const DriveSpec* d = drive(move.drive); d && d->speed_max > 0.0 && move.speed > d->speed_max * (1.0 + 1e-9))
+        report(here, written_of(here, {"speed_m_per_min", "speed_m_per_s", "speed_deg_per_s", "speed_share_per_min"}),
+               fmt::format("is above the limit of drive \"{}\": {:.6g} of {:.6g} {}", d->name, shown(move.speed, *d),
+                           shown(d->speed_max, *d), shown_unit(*d)));
+      if (move.profile.shape == ProfileSpec::Shape::knots && !has_motion(move.profile.knots))
+        report(here, "knots", "must have one number > 0 at least");
+    }
+  }
+  static bool has_motion(const std::vector<double>& knots) {
+    return std::any_of(knots.begin(), knots.end(), [](double k) { return k > 0.0; });
+  }
+  double shown(double speed, const DriveSpec& d) const {
+    return unit_of(d) == "deg" ? speed / unit::deg_per_s.factor : speed * 60.0;
+  }
+  std::string shown_unit(const DriveSpec& d) const {
+    return unit_of(d) == "deg" ? "deg/s" : unit_of(d) == "m" ? "m/min" : "shares/min";
+  }
+
+  void check_pose(const PoseSpec& pose) {
+    const std::string entry = "poses." + pose.name;
+    std::set<std::string> used;
+    const auto claim = [&](const std::string& here, const std::string& name) {
+      if (!used.insert(name).second)
+        report(here, "drive", fmt::format("\"{}\" has more than one thing to do in this pose", name));
+    };
+    for (const PoseSpec::DriveSetting& setting : pose.drives) {
+      check_drive_units(entry + ".drives." + setting.drive, setting.drive, {"position"});
+      claim(entry + ".drives." + setting.drive, setting.drive);
+    }
+    for (const PoseSpec::Hold& hold : pose.holds) {
+      const std::string here = entry + ".holds." + hold.joint;
+      claim(here, hold.drive);
+      const JointSpec* held = joint(hold.joint);
+      const bool turns = held && held->type == JointSpec::Type::revolute;
+      if (held && !turns && held->type != JointSpec::Type::prismatic)
+        report(here, "joint",
+               fmt::format("must be a revolute or prismatic joint, \"{}\" has no coordinate", held->name));
+      const std::string wrong = turns ? "slide_m" : "angle_deg";
+      if (held && written(here, wrong))
+        report(here, wrong,
+               fmt::format("does not fit joint \"{}\": write \"{}\"", hold.joint, turns ? "angle_deg" : "slide_m"));
+    }
+    for (const PoseSpec::Goal& goal : pose.goals) {
+      claim(entry + ".goals." + goal.drive, goal.drive);
+      check_goal(entry + ".goals." + goal.drive, goal.coordinate);
+    }
+  }
+
+  void check_solver() {
+    if (spec_.solver.output_interval < spec_.solver.time_step)
+      report("solver", "output_interval_s",
+             fmt::format("must be at least time_step_s {:.6g}, got {:.6g}", spec_.solver.time_step,
+                         spec_.solver.output_interval));
+    if (spec_.operation.phases.empty() && !(spec_.solver.max_duration > 0.0))
+      report("operation", "",
+             "has no phases: give [[operation.phases]], or solver.max_duration_s for a run without them");
+  }
+
+  const Specification& spec_;
+  const Node& root_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void check_lift(const Case& c, const Node& root, Findings& findings) { LiftCheck(c, root, findings).run(); }
+
+}  // namespace stillhook

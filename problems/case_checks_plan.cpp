@@ -1,0 +1,124 @@
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "problems/case_checks.h"
+#include "problems/case_key.h"
+#include "results/metrics.h"
+
+namespace stillhook {
+namespace {
+
+class PlanCheck {
+ public:
+  PlanCheck(const Case& c, const Node& root, Findings& findings) : case_(c), root_(root), findings_(findings) {}
+
+  void run() {
+    for (const LimitSpec& limit : case_.limits) check_limit(limit);
+    for (const ObjectiveTerm& term : case_.plan.objective)
+      wants_metric("plan.objective." + as_step(term.metric), term.metric);
+    check_plan_as_a_whole();
+    for (const VariableSpec& variable : case_.plan.variables) check_variable(variable);
+    for (const ScenarioSpec& scenario : case_.plan.scenarios) check_scenario(scenario);
+  }
+
+ private:
+  void report(const std::string& entry, const std::string& key, const std::string& sentence) {
+    findings_.add(position_of_key(root_, entry, key), entry, key, sentence);
+  }
+
+  void wants_metric(const std::string& entry, const std::string& metric) {
+    if (metric_exists(metric, case_.specification)) return;
+    const auto near = nearest(metric, metric_names(case_.specification));
+    report(entry, "",
+           fmt::format("there is no metric \"{}\" in this lift{}", metric,
+                       near ? fmt::format(", did you mean \"{}\"?", *near) : std::string()));
+  }
+
+  void check_limit(const LimitSpec& limit) {
+    const std::string entry = "limits." + as_step(limit.metric);
+    wants_metric(entry, limit.metric);
+    if (!limit.max && !limit.min) report(entry, "", "needs max, min or both");
+    if (limit.max && limit.min && *limit.min > *limit.max)
+      report(entry, "min", fmt::format("must be at most max {:.6g}, got {:.6g}", *limit.max, *limit.min));
+  }
+
+  void check_plan_as_a_whole() {
+    const bool has_variables = !case_.plan.variables.empty(), has_terms = !case_.plan.objective.empty();
+    if (has_variables && !has_terms) report("plan", "objective", "has no terms: there is nothing to minimise");
+    if (has_terms && !has_variables) report("plan", "variables", "has no keys: there is nothing to search over");
+  }
+
+  void check_variable(const VariableSpec& v) {
+    const std::string entry = "plan.variables." + as_step(v.key);
+    const bool ordered = v.lower < v.upper;
+    if (!ordered) report(entry, "min", fmt::format("must be < max {:.6g}, got {:.6g}", v.upper, v.lower));
+    if (v.logarithmic && !(v.lower > 0.0))
+      report(entry, "min", fmt::format("must be > 0 for a logarithmic variable, got {:.6g}", v.lower));
+    const std::vector<std::string> steps = steps_of(v.key);
+    if (steps.front() == "plan" || steps.front() == "limits" || steps.front() == "solver")
+      return report(entry, "", fmt::format("must be a key of the lift, not of [{}]", steps.front()));
+    try {
+      Node copy = root_;
+      const std::vector<KeyTarget> targets = find_targets(copy, v.key);
+      const std::optional<double> start = start_value(entry, targets);
+      if (start && ordered && !(v.lower <= *start && *start <= v.upper))
+        report(entry, "",
+               fmt::format("the start value {:.6g} lies outside [{:.6g}, {:.6g}]", *start, v.lower, v.upper));
+      if (start) check_range(entry, *targets.front().field, v);
+    } catch (const KeyError& error) {
+      report(entry, "", fmt::format("leads nowhere: {}", error.what()));
+    }
+  }
+
+  /// The value that every target has now; reports if there is none.
+  std::optional<double> start_value(const std::string& entry, const std::vector<KeyTarget>& targets) {
+    std::optional<double> start;
+    for (const KeyTarget& target : targets) {
+      const bool is_number = target.field->type == Field::Type::number || target.index;
+      if (!is_number) {
+        report(entry, "", fmt::format("must lead to a number, {} is not one", target.field->key));
+        return std::nullopt;
+      }
+      const std::optional<double> value = number_at(target);
+      if (!value) {
+        report(entry, "", fmt::format("the case has no value of {} to start from", target.field->key));
+        return std::nullopt;
+      }
+      if (start && *start != *value) {
+        report(entry, "", fmt::format("leads to different start values, {:.6g} and {:.6g}", *start, *value));
+        return std::nullopt;
+      }
+      start = value;
+    }
+    return start;
+  }
+
+  void check_range(const std::string& entry, const Field& field, const VariableSpec& v) {
+    for (const auto& [key, value] : {std::pair{"min", v.lower}, std::pair{"max", v.upper}})
+      if (!field.range.contains(value))
+        report(entry, key, fmt::format("{} must be {}, got {:.6g}", field.key, field.range.text(field.unit), value));
+  }
+
+  void check_scenario(const ScenarioSpec& scenario) {
+    const std::string entry = "plan.scenarios." + scenario.name;
+    for (const SeaStateSpec& state : case_.specification.sea.states) {
+      if (state.name != scenario.sea) continue;
+      const bool regular = state.type == SeaStateSpec::Type::regular;
+      const bool irregular =
+          state.type == SeaStateSpec::Type::jonswap || state.type == SeaStateSpec::Type::pierson_moskowitz;
+      if (scenario.phase && !regular) report(entry, "phase_deg", "has a meaning only with a regular sea");
+      if (scenario.seed && !irregular) report(entry, "seed", "has a meaning only with an irregular sea");
+    }
+  }
+
+  const Case& case_;
+  const Node& root_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void check_plan(const Case& c, const Node& root, Findings& findings) { PlanCheck(c, root, findings).run(); }
+
+}  // namespace stillhook

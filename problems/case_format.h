@@ -1,0 +1,28 @@
+// The case format: one field table per struct of a lift and of a plan. docs/case-format.md is written from these.
+#pragma once
+
+#include "problems/case.h"
+#include "problems/field_table.h"
+
+namespace stillhook {
+
+/// The whole document; its struct is Case.
+const Table& case_table();
+
+const Table& sea_table();
+const Table& body_table();
+const Table& joint_table();
+const Table& drive_table();
+const Table& wire_table();
+const Table& tagline_table();
+const Table& mooring_table();
+const Table& contact_table();
+const Table& ballast_table();
+const Table& operation_table();
+const Table& pose_table();
+const Table& clearance_table();
+const Table& solver_table();
+const Table& limit_table();
+const Table& plan_table();
+
+}  // namespace stillhook

@@ -1,0 +1,354 @@
+// Field tables of the operation, poses, clearances, solver, limits and plan; and of the whole document.
+#include "problems/case_format.h"
+
+namespace stillhook {
+namespace {
+
+/// The keys of a measured coordinate and the value wanted of it, in a struct that holds both.
+template <class S, class C, class V>
+void add_goal_keys(TableOf<S>& t, C coordinate, V value) {
+  const auto member = [coordinate](auto pointer) {
+    return [ coordinate, pointer ](S & s) -> auto& { return coordinate(s).*pointer; };
+  };
+  t.text("body", member(&CoordinateSpec::body), "A point of this body ...")
+      .names(Reference::body)
+      .one_of("measured thing", true);
+  t.text("joint", member(&CoordinateSpec::joint),
+         "... or the coordinate of this joint, relative to the initial pose ...")
+      .names(Reference::joint)
+      .one_of("measured thing", true);
+  t.text("wire", member(&CoordinateSpec::wire), "... or the tension of this wire.")
+      .names(Reference::wire)
+      .one_of("measured thing", true);
+  t.vector("point_m", member(&CoordinateSpec::point), unit::m, any_value(), "The point in the body frame.");
+  t.template choice<decltype(member(&CoordinateSpec::axis)), int>(
+      "axis", member(&CoordinateSpec::axis), {{"x", 0}, {"y", 1}, {"z", 2}}, "The component that counts.");
+  t.text("relative_to", member(&CoordinateSpec::relative_to), "Body whose frame is used instead of the world's.")
+      .names(Reference::body)
+      .absent("the world");
+  t.number("value_m", value, unit::m, any_value(), "Wanted position, or slide of a prismatic joint.")
+      .one_of("value", true);
+  t.number("value_deg", value, unit::deg, any_value(), "Wanted angle of a revolute joint.").one_of("value", true);
+  t.number("value_kN", value, unit::kN, not_negative(), "Wanted tension of a wire.").one_of("value", true);
+}
+
+const Table& move_goal_table() {
+  static const Table table = [] {
+    TableOf<MoveSpec> t("operation.phases.moves.goal",
+                        "What the move must reach, in static equilibrium at the end of its phase.");
+    add_goal_keys(
+        t, [](MoveSpec& m) -> CoordinateSpec& { return m.goal ? *m.goal : m.goal.emplace(); }, &MoveSpec::goal_value);
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& move_table() {
+  static const Table table = [] {
+    using S = MoveSpec;
+    TableOf<S> t("operation.phases.moves",
+                 "One drive moving from rest to rest: a travel, or the travel that reaches a goal.");
+    t.text("drive", &S::drive, "Drive.").names(Reference::drive).require();
+    t.number("speed_m_per_min", &S::speed, unit::m_per_min, positive(), "Peak speed, without sign.")
+        .one_of("speed", true);
+    t.number("speed_m_per_s", &S::speed, unit::m_per_s, positive(), "The same in m/s.").one_of("speed", true);
+    t.number("speed_deg_per_s", &S::speed, unit::deg_per_s, positive(), "The same of a turning joint.")
+        .one_of("speed", true);
+    t.number("speed_share_per_min", &S::speed, unit::share_per_min, positive(), "The same of ballast.")
+        .one_of("speed", true);
+    t.number("travel_m", &S::travel, unit::m, any_value(), "Travel with sign; a winch hauls in with +.")
+        .one_of("travel", true);
+    t.number("travel_deg", &S::travel, unit::deg, any_value(), "The same of a turning joint.").one_of("travel", true);
+    t.number("travel_share", &S::travel, unit::share, between(-1.0, 1.0), "The same of ballast.")
+        .one_of("travel", true);
+    t.table(
+         "goal", [](S& s) -> S& { return s; }, &move_goal_table, "What to reach instead of a travel.")
+        .one_of("travel", true);
+    t.choice<decltype([](S& s) -> ProfileSpec::Shape& { return s.profile.shape; }), ProfileSpec::Shape>(
+        "profile", {},
+        {{"trapezoid", ProfileSpec::Shape::trapezoid},
+         {"s_curve", ProfileSpec::Shape::s_curve},
+         {"knots", ProfileSpec::Shape::knots}},
+        "Speed over time: linear ramps, sin^2 ramps, or through knots.");
+    t.number(
+        "ramp_s", [](S& s) -> double& { return s.profile.ramp; }, unit::s, positive(),
+        "From rest to full speed, and back.");
+    t.numbers(
+         "knots", {}, [](S& s, const std::vector<double>& v) { s.profile.knots = v; }, unit::one, between(0.0, 1e3),
+         "Relative speeds at equal times between the two zeros.")
+        .only_when("profile", {"knots"})
+        .require();
+    t.number("delay_s", &S::delay, unit::s, not_negative(), "After the start of the phase.");
+    t.boolean("background", &S::background, "The phase may end before this move does.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& event_table() {
+  static const Table table = [] {
+    using S = EventSpec;
+    TableOf<S> t("operation.phases.wait_for", "An event that a phase waits for before it starts.");
+    t.choice<decltype(&S::type), EventSpec::Type>("event", &S::type,
+                                                  {{"clear_of_contact", EventSpec::Type::clear_of_contact}},
+                                                  "clear_of_contact: no force in a contact for a time.")
+        .require();
+    t.text("contact", &S::contact, "The contact.").names(Reference::contact).require();
+    t.number("hold_s", &S::hold, unit::s, not_negative(), "How long it must last.");
+    t.number("timeout_s", &S::timeout, unit::s, positive(), "Go on after this, with a note in the result.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& phase_table() {
+  static const Table table = [] {
+    using S = PhaseSpec;
+    TableOf<S> t("operation.phases",
+                 "A named part of the operation. It lasts as long as its moves, and at least `duration_s`.");
+    t.name("name", &S::name, "Name.");
+    t.choice<decltype(&S::stage), S::Stage>("stage", &S::stage,
+                                            {{"on_barge", S::Stage::on_barge},
+                                             {"transfer", S::Stage::transfer},
+                                             {"hanging", S::Stage::hanging},
+                                             {"set_down", S::Stage::set_down},
+                                             {"landed", S::Stage::landed}},
+                                            "Where the load is; decides which metrics look at the phase.");
+    t.number("duration_s", &S::duration, unit::s, not_negative(), "At least this long.");
+    t.table("wait_for", &S::wait_for, &event_table, "Event before the start.").absent("starts at once");
+    t.tables("moves", &S::moves, "drive", &move_table, "Moves, at most one of each drive.").absent("none");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& pose_drive_table() {
+  static const Table table = [] {
+    using S = PoseSpec::DriveSetting;
+    TableOf<S> t("poses.drives", "A drive at a position.");
+    t.text("drive", &S::drive, "Drive.").names(Reference::drive).require();
+    t.number("position_m", &S::position, unit::m, any_value(), "Position; a winch hauls in with +.")
+        .one_of("position", true);
+    t.number("position_deg", &S::position, unit::deg, any_value(), "The same of a turning joint.")
+        .one_of("position", true);
+    t.number("position_share", &S::position, unit::share, between(0.0, 1.0), "The same of ballast.")
+        .one_of("position", true);
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& pose_hold_table() {
+  static const Table table = [] {
+    using S = PoseSpec::Hold;
+    TableOf<S> t("poses.holds", "A joint held at a coordinate by a drive.");
+    t.text("joint", &S::joint, "Joint.").names(Reference::joint).require();
+    t.number("angle_deg", &S::coordinate, unit::deg, any_value(), "Angle relative to the initial pose.")
+        .one_of("coordinate", true);
+    t.number("slide_m", &S::coordinate, unit::m, any_value(), "Slide of a prismatic joint.").one_of("coordinate", true);
+    t.text("drive", &S::drive, "Drive that holds it.").names(Reference::drive).require();
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& pose_goal_table() {
+  static const Table table = [] {
+    using S = PoseSpec::Goal;
+    TableOf<S> t("poses.goals", "A coordinate brought to a value by a drive.");
+    add_goal_keys(
+        t, [](S& s) -> CoordinateSpec& { return s.coordinate; }, &S::value);
+    t.text("drive", &S::drive, "Drive that reaches it.").names(Reference::drive).require();
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& clearance_shape_table() {
+  static const Table table = [] {
+    using S = ClearanceSpec::Shape;
+    TableOf<S> t("clearances.shape", "A box by opposite corners, or a capsule about an axis.");
+    t.text("body", &S::body, "Body, or `world`.").names(Reference::body_or_world).require();
+    t.vector("from_m", &S::from, unit::m, any_value(), "A corner, or the start of the axis, in the body frame.")
+        .require();
+    t.vector("to_m", &S::to, unit::m, any_value(), "The opposite corner, or the end of the axis.").require();
+    t.number("radius_m", &S::radius, unit::m, positive(), "Radius of a capsule.").absent("a box");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& objective_table() {
+  static const Table table = [] {
+    using S = ObjectiveTerm;
+    TableOf<S> t("plan.objective", "One term, weight * metric / scale, under the metric's name.");
+    t.number("weight", &S::weight, unit::one, any_value(), "Weight.");
+    t.number("scale", &S::scale, unit::one, positive(), "A step of this size in the metric's unit counts as 1.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& variable_table() {
+  static const Table table = [] {
+    using S = VariableSpec;
+    TableOf<S> t(
+        "plan.variables",
+        "A numeric key that the search may change, by its dotted key; entries of arrays by name, `*` for all of them.");
+    t.number("min", &S::lower, unit::one, any_value(), "Lower bound, in the key's unit.").require();
+    t.number("max", &S::upper, unit::one, any_value(), "Upper bound.").require();
+    t.boolean("logarithmic", &S::logarithmic, "Search over its logarithm.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& scenario_table() {
+  static const Table table = [] {
+    using S = ScenarioSpec;
+    TableOf<S> t("plan.scenarios", "A condition that every plan is evaluated in: a sea state with changes.");
+    t.name("name", &S::name, "Name.");
+    t.text("sea", &S::sea, "Sea state.").names(Reference::sea_state).require();
+    t.number("heading_deg", &S::heading, unit::deg, Range{-360.0, 360.0, false}, "Heading instead of the state's.")
+        .absent("the state's");
+    t.number("phase_deg", &S::phase, unit::deg, any_value(), "Phase instead of the state's, regular waves.")
+        .absent("the state's");
+    t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Seed instead of the state's, irregular waves.")
+        .absent("the state's");
+    t.number("weight", &S::weight, unit::one, positive(), "Weight in the mean over scenarios.");
+    return t.build();
+  }();
+  return table;
+}
+
+}  // namespace
+
+const Table& operation_table() {
+  static const Table table = [] {
+    using S = OperationSpec;
+    TableOf<S> t("operation", "What is done: phases in sequence.");
+    t.text("load", &S::load, "The lifted body.").names(Reference::body).absent("none");
+    t.text("crane", &S::crane, "The vessel whose heading defines off-lead and side-lead.")
+        .names(Reference::body)
+        .absent("none");
+    t.vector("target_m", &S::target, unit::m, any_value(),
+             "Where the load's reference point should end, in the world.");
+    t.vector("load_reference_m", &S::load_reference, unit::m, any_value(), "That point in the load's frame.");
+    t.tables("phases", &S::phases, "name", &phase_table, "Phases, in order.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& pose_table() {
+  static const Table table = [] {
+    using S = PoseSpec;
+    TableOf<S> t("poses",
+                 "A static pose to report: drives set, joints held, goals reached, all from the initial state.");
+    t.name("name", &S::name, "Name.");
+    t.tables("drives", &S::drives, "drive", &pose_drive_table, "Drives at positions.").absent("none");
+    t.tables("holds", &S::holds, "joint", &pose_hold_table, "Joints held.").absent("none");
+    t.tables("goals", &S::goals, "drive", &pose_goal_table, "Coordinates reached.").absent("none");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& clearance_table() {
+  static const Table table = [] {
+    using S = ClearanceSpec;
+    TableOf<S> t("clearances", "Two shapes whose distance is reported as `clearance_min.<name>`.");
+    t.name("name", &S::name, "Name.");
+    t.table("a", &S::a, &clearance_shape_table, "One shape.").require();
+    t.table("b", &S::b, &clearance_shape_table, "The other.").require();
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& solver_table() {
+  static const Table table = [] {
+    using S = SolverSpec;
+    TableOf<S> t("solver", "Time stepping: HHT-alpha on the index-3 equations.");
+    t.number("time_step_s", &S::time_step, unit::s, positive(), "Time step.");
+    t.number("hht_alpha", &S::hht_alpha, unit::one, between(-1.0 / 3.0, 0.0), "Numerical damping; below 0 with joints, whose multipliers would ring at 0.");
+    t.number("newton_tolerance", &S::newton_tolerance, unit::one, Range{0.0, 1e-2, true},
+             "Relative tolerance of Newton's method.");
+    t.number("output_interval_s", &S::output_interval, unit::s, positive(), "Interval of the recorded history.");
+    t.number("max_duration_s", &S::max_duration, unit::s, positive(), "End of the run.")
+        .absent("when the operation ends");
+    t.boolean("static_start", &S::static_start,
+              "Start from static equilibrium instead of the given poses and velocities.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& limit_table() {
+  static const Table table = [] {
+    using S = LimitSpec;
+    TableOf<S> t("limits", "A limit on a metric, under the metric's name.");
+    t.number("max", &S::max, unit::one, any_value(), "Largest value allowed, in the metric's unit.").absent("none");
+    t.number("min", &S::min, unit::one, any_value(), "Smallest value allowed.").absent("none");
+    t.text("source", &S::source, "Where the number comes from; printed in every report.").require();
+    t.boolean("hard", &S::hard, "A violation fails the lift; otherwise it is a warning.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& plan_table() {
+  static const Table table = [] {
+    using S = PlanSpec;
+    TableOf<S> t("plan",
+                 "The search: minimise the objective over the variables, within the limits, in every scenario.");
+    t.map("objective", &S::objective, &ObjectiveTerm::metric, &objective_table, "Terms, by metric.");
+    t.map("variables", &S::variables, &VariableSpec::key, &variable_table, "Design variables, by key.");
+    t.tables("scenarios", &S::scenarios, "name", &scenario_table, "Scenarios.").absent("sea.active alone");
+    t.choice<decltype(&S::aggregate), S::Aggregate>("aggregate", &S::aggregate,
+                                                    {{"mean", S::Aggregate::mean}, {"worst", S::Aggregate::worst}},
+                                                    "Of the objective over scenarios; limits hold in each.");
+    t.text("global_algorithm", &S::global_algorithm, "Algorithm of the first part, an NLopt name in lower case.");
+    t.text("local_algorithm", &S::local_algorithm, "Algorithm of the second part.");
+    t.number("global_share", &S::global_share, unit::one, between(0.0, 1.0),
+             "Share of the evaluations for the first part.");
+    t.integer("evaluations", &S::evaluations, Range{1, 1000000, false}, "Budget of evaluations.");
+    t.number("time_budget_s", &S::time_budget, unit::s, positive(), "Wall time; gives up reproducibility.")
+        .absent("none");
+    t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Seed of the search.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& case_table() {
+  static const Table table = [] {
+    using S = Case;
+    TableOf<S> t("", "A case: one lift, its limits, and the plan to search for.");
+    const auto spec = [](auto member) {
+      return [member](S & s) -> auto& { return s.specification.*member; };
+    };
+    t.name("name", &S::name, "Name of the case; run folders are named after it.");
+    t.text("title", &S::title, "A line for reports.").absent("the name");
+    t.table("sea", spec(&Specification::sea), &sea_table, "The water and its waves.").absent("calm, deep sea water");
+    t.tables("bodies", spec(&Specification::bodies), "name", &body_table, "Rigid bodies.").require();
+    t.tables("joints", spec(&Specification::joints), "name", &joint_table, "Joints.").absent("none");
+    t.tables("drives", spec(&Specification::drives), "name", &drive_table, "Drives.").absent("none");
+    t.tables("wires", spec(&Specification::wires), "name", &wire_table, "Wires.").absent("none");
+    t.tables("taglines", spec(&Specification::taglines), "name", &tagline_table, "Taglines.").absent("none");
+    t.tables("moorings", spec(&Specification::moorings), "name", &mooring_table, "Moorings.").absent("none");
+    t.tables("contacts", spec(&Specification::contacts), "name", &contact_table, "Contacts.").absent("none");
+    t.tables("ballast", spec(&Specification::ballast), "name", &ballast_table, "Ballast transfers.").absent("none");
+    t.table("operation", spec(&Specification::operation), &operation_table, "The operation.").require();
+    t.tables("poses", spec(&Specification::poses), "name", &pose_table, "Poses to report.").absent("none");
+    t.tables("clearances", spec(&Specification::clearances), "name", &clearance_table, "Clearances to report.")
+        .absent("none");
+    t.map("limits", &S::limits, &LimitSpec::metric, &limit_table, "Limits, by metric.").absent("none");
+    t.table("solver", spec(&Specification::solver), &solver_table, "Time stepping.").absent("defaults");
+    t.table("plan", &S::plan, &plan_table, "The search.").absent("no search");
+    return t.build();
+  }();
+  return table;
+}
+
+}  // namespace stillhook

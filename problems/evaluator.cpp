@@ -1,0 +1,265 @@
+#include "problems/evaluator.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "problems/scenarios.h"
+#include "sim/simulate.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFailedObjective = 1000.0;  // terms are of order 1
+constexpr std::size_t kHeader = 2;           // status and reached, before the metrics in `details`
+
+std::vector<ConstraintSpec> constraints_of(const Case& c) {
+  std::vector<ConstraintSpec> constraints;
+  for (const LimitSpec& limit : c.limits) {
+    if (!limit.hard) continue;
+    const MetricDefinition* metric = metric_definition(limit.metric);
+    if (!metric) throw CaseError("limits." + limit.metric + ": there is no such metric");
+    if (limit.max) constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->unit), true});
+    if (limit.min) constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->unit), false});
+  }
+  return constraints;
+}
+
+std::string number(double v) {
+  std::string text = std::to_string(v);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+Eigen::VectorXd baseline_of(const Case& c) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(c.plan.variables.size()));
+  for (std::size_t i = 0; i < c.plan.variables.size(); ++i) {
+    const VariableSpec& v = c.plan.variables[i];
+    const double value = key_value(c, v.key);
+    if (!(value >= v.lower && value <= v.upper))
+      throw CaseError("plan.variables." + v.key + ": the case has " + number(value) + ", outside the bounds " +
+                      number(v.lower) + " to " + number(v.upper));
+    x[static_cast<Eigen::Index>(i)] = value;
+  }
+  return x;
+}
+
+void check_objective(const Case& c) {
+  if (c.plan.objective.empty()) throw CaseError("plan.objective: there is no term to minimise");
+  if (c.plan.variables.empty()) throw CaseError("plan.variables: there is no variable to search over");
+  for (const ObjectiveTerm& term : c.plan.objective)
+    if (!metric_exists(term.metric, c.specification))
+      throw CaseError("plan.objective." + term.metric + ": there is no such metric in this case");
+}
+
+}  // namespace
+
+double limit_scale(double limit, const std::string& unit) {
+  if (limit != 0.0) return std::abs(limit);
+  // One step: what a user would call a first noticeable violation.
+  if (unit == "m" || unit == "m/s") return 0.1;
+  if (unit == "kN" || unit == "kN s") return 100.0;
+  if (unit == "s") return 60.0;
+  return 1.0;  // deg, counts
+}
+
+Evaluator::Evaluator(Case c, const std::atomic<bool>* stop)
+    : case_(std::move(c)),
+      stop_(stop),
+      scenarios_(scenarios_of(case_)),
+      constraints_(constraints_of(case_)),
+      metric_names_(stillhook::metric_names(case_.specification)) {
+  check_objective(case_);
+  for (const ScenarioSpec& scenario : scenarios_) in_scenario(case_.specification, scenario);
+  baseline_ = baseline_of(case_);
+}
+
+Case Evaluator::case_at(const Eigen::VectorXd& x) const {
+  std::vector<std::pair<std::string, double>> values;
+  for (std::size_t i = 0; i < case_.plan.variables.size(); ++i)
+    values.emplace_back(case_.plan.variables[i].key, x[static_cast<Eigen::Index>(i)]);
+  return with_values(case_, values);
+}
+
+ScenarioOutcome Evaluator::run_scenario(const Case& c, const ScenarioSpec& scenario) const {
+  ScenarioOutcome outcome;
+  outcome.metrics.assign(metric_names_.size(), kNaN);
+  try {
+    const Model model = build_model(in_scenario(c.specification, scenario));
+    const Operation operation = build_operation(model);
+    double last = 0.0, end = operation.planned_duration();
+    RunOptions options;
+    options.progress = [&](double t, double t_end) {
+      last = t;
+      end = t_end;
+      return !(stop_ && stop_->load());
+    };
+    const Trajectory run = simulate(model, operation, options);
+    outcome.status = run.status;
+    outcome.message = run.message;
+    if (!run.time.empty()) last = std::max(last, run.time.back());
+    outcome.reached = run.status == RunStatus::completed ? 1.0 : std::clamp(end > 0.0 ? last / end : 0.0, 0.0, 1.0);
+    const Metrics metrics = compute_metrics(model.specification(), run);
+    for (std::size_t i = 0; i < metric_names_.size(); ++i) outcome.metrics[i] = metrics.value(metric_names_[i]);
+  } catch (const SpecificationError& error) {
+    outcome.message = error.what();
+  } catch (const CaseError& error) {
+    outcome.message = error.what();
+  }
+  return outcome;
+}
+
+Evaluation Evaluator::evaluate(const Eigen::VectorXd& x) const {
+  std::vector<ScenarioOutcome> outcomes(scenarios_.size());
+  Case changed;
+  try {
+    changed = case_at(x);
+  } catch (const CaseError& error) {
+    for (ScenarioOutcome& outcome : outcomes) {
+      outcome.metrics.assign(metric_names_.size(), kNaN);
+      outcome.message = error.what();
+    }
+    return aggregated(outcomes);
+  }
+  std::vector<std::exception_ptr> errors(scenarios_.size());
+#pragma omp parallel for schedule(dynamic, 1) if (!omp_in_parallel() && scenarios_.size() > 1)
+  for (std::size_t i = 0; i < scenarios_.size(); ++i) {
+    try {
+      outcomes[i] = run_scenario(changed, scenarios_[i]);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  return aggregated(outcomes);
+}
+
+double Evaluator::metric_of(const ScenarioOutcome& outcome, const std::string& name) const {
+  const auto found = std::find(metric_names_.begin(), metric_names_.end(), name);
+  return found == metric_names_.end() ? kNaN : outcome.metrics[static_cast<std::size_t>(found - metric_names_.begin())];
+}
+
+double Evaluator::objective_of(const ScenarioOutcome& outcome) const {
+  double sum = 0.0;
+  for (const ObjectiveTerm& term : case_.plan.objective)
+    sum += term.weight * metric_of(outcome, term.metric) / term.scale;
+  return sum;
+}
+
+double Evaluator::constraint_of(const ScenarioOutcome& outcome, const ConstraintSpec& constraint) const {
+  const double excess = metric_of(outcome, constraint.metric) - constraint.limit;
+  const double scaled = (constraint.is_max ? excess : -excess) / constraint.scale;
+  // What could not be computed is not within the limit, as in check_limits().
+  return std::isfinite(scaled) ? scaled : 1.0;
+}
+
+double Evaluator::closeness(const ScenarioOutcome& outcome) const {
+  if (constraints_.empty()) return objective_of(outcome);
+  double closest = -std::numeric_limits<double>::infinity();
+  for (const ConstraintSpec& constraint : constraints_) closest = std::max(closest, constraint_of(outcome, constraint));
+  return closest;
+}
+
+Evaluation Evaluator::aggregated(const std::vector<ScenarioOutcome>& outcomes) const {
+  Evaluation e;
+  e.usable = true;
+  double reached = 0.0, mean = 0.0, weights = 0.0, worst = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const ScenarioOutcome& outcome = outcomes[i];
+    e.details.push_back(static_cast<double>(outcome.status));
+    e.details.push_back(outcome.reached);
+    e.details.insert(e.details.end(), outcome.metrics.begin(), outcome.metrics.end());
+    e.interrupted = e.interrupted || outcome.status == RunStatus::interrupted;
+    const double value = objective_of(outcome);
+    const bool good = outcome.status == RunStatus::completed && std::isfinite(value);
+    if (!good && e.usable) {
+      const std::string why =
+          outcome.status == RunStatus::completed ? "a metric of the objective does not exist in it" : outcome.message;
+      e.message = scenarios_[i].name + ": " + why;
+    }
+    e.usable = e.usable && good;
+    reached += outcome.reached / static_cast<double>(outcomes.size());
+    mean += scenarios_[i].weight * value;
+    weights += scenarios_[i].weight;
+    worst = std::max(worst, value);
+  }
+  const Eigen::Index m = static_cast<Eigen::Index>(constraints_.size());
+  if (!e.usable) {
+    e.objective = kFailedObjective * (2.0 - reached);
+    e.constraints = Eigen::VectorXd::Constant(m, 2.0 - reached);
+    return e;
+  }
+  e.objective = case_.plan.aggregate == PlanSpec::Aggregate::worst ? worst : mean / weights;
+  e.constraints.resize(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const ConstraintSpec& constraint = constraints_[static_cast<std::size_t>(i)];
+    double g = -std::numeric_limits<double>::infinity();
+    for (const ScenarioOutcome& outcome : outcomes) g = std::max(g, constraint_of(outcome, constraint));
+    e.constraints[i] = g;
+  }
+  return e;
+}
+
+SearchProblem Evaluator::problem() const {
+  SearchProblem problem;
+  problem.name = case_.name;
+  const Eigen::Index n = static_cast<Eigen::Index>(case_.plan.variables.size());
+  problem.lower.resize(n);
+  problem.upper.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const VariableSpec& v = case_.plan.variables[static_cast<std::size_t>(i)];
+    problem.variable_names.push_back(v.key);
+    problem.lower[i] = v.lower;
+    problem.upper[i] = v.upper;
+    problem.logarithmic.push_back(v.logarithmic);
+  }
+  problem.start = baseline_;
+  for (const ConstraintSpec& c : constraints_)
+    problem.constraint_names.push_back(c.metric + (c.is_max ? " max" : " min"));
+  problem.evaluate = [this](const Eigen::VectorXd& x) { return evaluate(x); };
+  return problem;
+}
+
+std::vector<ScenarioOutcome> Evaluator::outcomes(const Evaluation& evaluation) const {
+  std::vector<ScenarioOutcome> outcomes(scenarios_.size());
+  const std::size_t size = kHeader + metric_names_.size();
+  if (evaluation.details.size() != outcomes.size() * size) return {};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const auto begin = evaluation.details.begin() + static_cast<std::ptrdiff_t>(i * size);
+    outcomes[i].status = static_cast<RunStatus>(static_cast<int>(begin[0]));
+    outcomes[i].reached = begin[1];
+    outcomes[i].metrics.assign(begin + kHeader, begin + static_cast<std::ptrdiff_t>(size));
+  }
+  return outcomes;
+}
+
+std::vector<TermValue> Evaluator::terms(const Evaluation& evaluation) const {
+  const std::vector<ScenarioOutcome> all = outcomes(evaluation);
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (objective_of(all[i]) > objective_of(all[worst])) worst = i;
+  std::vector<TermValue> terms;
+  for (const ObjectiveTerm& term : case_.plan.objective) {
+    TermValue t{term, kNaN, kNaN};
+    if (evaluation.usable && case_.plan.aggregate == PlanSpec::Aggregate::worst) {
+      t.value = metric_of(all[worst], term.metric);
+    } else if (evaluation.usable) {
+      double sum = 0.0, weights = 0.0;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        sum += scenarios_[i].weight * metric_of(all[i], term.metric);
+        weights += scenarios_[i].weight;
+      }
+      t.value = sum / weights;
+    }
+    t.contribution = term.weight * t.value / term.scale;
+    terms.push_back(t);
+  }
+  return terms;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,41 @@
+// Limits on metrics and the verdict on a run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/metrics.h"
+
+namespace stillhook {
+
+struct LimitSpec {
+  std::string metric;
+  std::optional<double> max, min;  // in the metric's unit
+  std::string source;              // where the number comes from, shown in every report
+  bool hard = true;                // hard: a violation makes the verdict fail; soft: reported as a warning
+};
+
+struct LimitCheck {
+  std::string metric, unit, source, phase;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double limit = std::numeric_limits<double>::quiet_NaN();
+  double margin = std::numeric_limits<double>::quiet_NaN();  // limit - value for a max, value - limit for a min
+  double time = std::numeric_limits<double>::quiet_NaN();    // s
+  bool is_max = true, hard = true, pass = false;
+};
+
+/// Checks every limit. A metric that could not be computed (NaN) fails.
+std::vector<LimitCheck> check_limits(const std::vector<LimitSpec>& limits, const Metrics& metrics);
+
+/// Margin as a share of the limit; the criterion with the smallest one governs. For a limit of zero ("no re-hits")
+/// there is no such share: +infinity if it is kept, -infinity if not. NaN values give -infinity.
+double relative_margin(const LimitCheck& check);
+
+/// The check with the smallest relative margin, hard ones before soft ones; nullptr if there is none.
+const LimitCheck* governing_check(const std::vector<LimitCheck>& checks);
+
+/// True when the run completed and no hard limit is violated.
+bool within_limits(const Metrics& metrics, const std::vector<LimitCheck>& checks);
+
+}  // namespace stillhook

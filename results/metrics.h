@@ -1,0 +1,69 @@
+// Numbers that judge a lift, computed from a trajectory. Every metric has a fixed name, unit and sense, and knows
+// when and in which phase it was reached; limits, objectives and reports refer to it by name.
+//
+// Definitions that several metrics share:
+//   extremes   come from Trajectory::extremes, which see every step, wherever the metric is an extreme of one channel;
+//              extremes of a combination (total hook load, sway, tilt, set-down movement), all means, and the leads
+//              during load transfer and set-down come from the recorded samples.
+//   static     "static" values are interpolated between the static poses at the two ends of a phase, by the progress of
+//              the drives that move in it (by time if none does). A pose in which the load still rests on a pickup
+//              or target contact is not one of a hanging load: the pose at the phase's other end is then used alone.
+//   sway       mean over the hoist wires of (offset_x, offset_y) minus its static value; horizontal, relative to the
+//              boom tips, in the crane's heading.
+//   lift-off   the first instant at or after the start of the first `transfer` phase (without one: of the first
+//              `hanging` phase) at which no pickup contact has a force; a re-hit is a pickup contact that starts later.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sim/trajectory.h"
+
+namespace stillhook {
+
+/// One entry of the catalogue: what exists, in which unit, and what it means.
+struct MetricDefinition {
+  std::string name;  // e.g. "daf_total"; "%" stands for an element's name, e.g. "daf.%"
+  std::string unit;  // as reported: "m", "deg", "kN", "kN s", "m/s", "s", "1"
+  std::string description;
+  std::string element;  // what "%" stands for: "phase", "wire", "hoist wire", "winch", "tagline", "mooring",
+                        // "clearance"; empty without "%"
+};
+
+struct Metric {
+  std::string name;
+  std::string unit;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double time = std::numeric_limits<double>::quiet_NaN();  // s, when it was reached; NaN if it is not of one instant
+  std::string phase;                                       // where it was reached; empty if over all
+};
+
+class Metrics {
+ public:
+  RunStatus status = RunStatus::not_run;
+  std::string message;  // why, if the run did not complete
+  std::vector<Metric> items;
+
+  const Metric* find(const std::string& name) const;
+  /// Value by name, NaN if absent.
+  double value(const std::string& name) const;
+};
+
+/// All metrics a report or case may name, with "%" for element names.
+const std::vector<MetricDefinition>& metric_catalogue();
+
+/// The definition that `name` (with an element's name in place of "%") belongs to; nullptr if there is none. Looks at
+/// the pattern alone, not at which elements exist.
+const MetricDefinition* metric_definition(const std::string& name);
+
+/// Every metric name that the elements of this specification allow.
+std::vector<std::string> metric_names(const Specification& specification);
+
+/// True if `name` is in the catalogue for the elements of this specification.
+bool metric_exists(const std::string& name, const Specification& specification);
+
+/// Computes every metric that applies. A run that diverged yields the metrics of the part that ran, with its status.
+Metrics compute_metrics(const Specification& specification, const Trajectory& trajectory);
+
+}  // namespace stillhook

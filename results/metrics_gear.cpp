@@ -1,0 +1,187 @@
+// Tensions, winches, taglines and moorings.
+#include <algorithm>
+#include <cmath>
+
+#include "results/metric_list.h"
+
+namespace stillhook {
+namespace {
+
+using Stage = PhaseSpec::Stage;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+struct Ratios {
+  Peak largest, smallest;
+};
+
+/// Extremes of (sum of tensions) / (sum of static tensions) over the hanging phases. For one wire the extremes of every
+/// step enter too; of a sum only the samples are known.
+Ratios tension_ratios(const RunView& view, const std::vector<std::string>& channels) {
+  Ratios ratios;
+  std::vector<std::span<const double>> series;
+  for (const std::string& name : channels) series.push_back(view.series(name));
+  for (std::size_t p : view.phases_of({Stage::hanging})) {
+    const auto static_tension = [&](double t) {
+      double sum = 0.0;
+      for (const std::string& name : channels) sum += view.static_at(p, t, name);
+      return sum;
+    };
+    const auto take = [&](double tension, double t) {
+      const double at_rest = static_tension(t);
+      if (!(at_rest > 0.0)) return;
+      ratios.largest.take_larger(tension / at_rest, t);
+      ratios.smallest.take_smaller(tension / at_rest, t);
+    };
+    if (channels.size() == 1) {
+      const Peak high = view.maximum(channels[0], {p}), low = view.minimum(channels[0], {p});
+      if (high.valid()) take(high.value, high.time);
+      if (low.valid()) take(low.value, low.time);
+    }
+    if (std::any_of(series.begin(), series.end(), [](const auto& s) { return s.empty(); })) continue;
+    const RunView::Range range = view.samples(p);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      double sum = 0.0;
+      for (const auto& values : series) sum += values[i];
+      take(sum, view.run().time[i]);
+    }
+  }
+  return ratios;
+}
+
+std::vector<std::string> hoist_tensions(const RunView& view) {
+  std::vector<std::string> names;
+  for (const WireSpec& wire : view.specification().wires)
+    if (wire.role == WireSpec::Role::hoist && view.channel(wire.name + ".tension") >= 0)
+      names.push_back(wire.name + ".tension");
+  return names;
+}
+
+Peak largest_sum(const RunView& view, const std::vector<std::string>& channels) {
+  if (channels.size() == 1) return view.maximum(channels[0], view.all_phases());
+  Peak peak;
+  std::vector<std::span<const double>> series;
+  for (const std::string& name : channels) series.push_back(view.series(name));
+  if (series.empty() || std::any_of(series.begin(), series.end(), [](const auto& s) { return s.empty(); })) return peak;
+  for (std::size_t i = 0; i < view.run().time.size(); ++i) {
+    double sum = 0.0;
+    for (const auto& values : series) sum += values[i];
+    peak.take_larger(sum, view.run().time[i]);
+  }
+  return peak;
+}
+
+/// Largest angle of a hoist wire while it carries the load: every step of the hanging phases, and of load transfer and
+/// set-down the samples with at least a tenth of the largest static tension, for a slack wire has no lead to judge.
+Peak largest_lead(const RunView& view, const WireSpec& wire, const std::string& quantity) {
+  Peak peak = view.largest_magnitude(wire.name + quantity, view.phases_of({Stage::hanging}));
+  const auto tension = view.series(wire.name + ".tension"), angle = view.series(wire.name + quantity);
+  double carried = 0.0;
+  for (std::size_t i = 0; i < view.run().static_poses.size(); ++i)
+    carried = std::max(carried, view.static_value(i, wire.name + ".tension"));
+  if (tension.empty() || angle.empty()) return peak;
+  for (std::size_t p : view.phases_of({Stage::transfer, Stage::set_down})) {
+    const RunView::Range range = view.samples(p);
+    for (std::size_t i = range.first; i < range.last; ++i)
+      if (tension[i] > 0.1 * carried) peak.take_larger(std::abs(angle[i]), view.run().time[i]);
+  }
+  return peak;
+}
+
+void add_lead_angles(const RunView& view, MetricList& list) {
+  for (const auto& [metric, quantity] :
+       {std::pair{"offlead_max", ".off_lead"}, std::pair{"sidelead_max", ".side_lead"}}) {
+    Peak overall;
+    for (const WireSpec& wire : view.specification().wires) {
+      if (wire.role != WireSpec::Role::hoist) continue;
+      const Peak peak = largest_lead(view, wire, quantity);
+      list.add(std::string(metric) + ".%", wire.name, peak);
+      overall.take_larger(peak.value, peak.time);
+    }
+    list.add(metric, overall);
+  }
+}
+
+}  // namespace
+
+void add_wires(const RunView& view, MetricList& list) {
+  Peak daf, slack, wire_use;
+  for (const WireSpec& wire : view.specification().wires) {
+    const std::string channel = wire.name + ".tension";
+    if (view.channel(channel) < 0) continue;
+    const Peak tension = view.maximum(channel, view.all_phases());
+    list.add("tension_max.%", wire.name, tension);
+    if (wire.breaking_load > 0.0) wire_use.take_larger(tension.value / wire.breaking_load, tension.time);
+    const Ratios ratios = tension_ratios(view, {channel});
+    list.add("daf.%", wire.name, ratios.largest);
+    if (wire.role != WireSpec::Role::hoist) continue;
+    list.add("slack_ratio_min.%", wire.name, ratios.smallest);
+    daf.take_larger(ratios.largest.value, ratios.largest.time);
+    slack.take_smaller(ratios.smallest.value, ratios.smallest.time);
+  }
+  list.add("daf_max", daf);
+  if (daf.valid()) daf.value -= 1.0;
+  list.add("daf_excess", daf);
+  list.add("slack_ratio_min", slack);
+  list.add("wire_utilisation_max", wire_use);
+  const std::vector<std::string> hoist = hoist_tensions(view);
+  if (!hoist.empty()) {
+    list.add("daf_total", tension_ratios(view, hoist).largest);
+    list.add("hook_load_max", largest_sum(view, hoist));
+  }
+  add_lead_angles(view, list);
+}
+
+void add_winches(const RunView& view, MetricList& list) {
+  const Specification& s = view.specification();
+  Peak pull_overall, use;
+  for (const DriveSpec& drive : s.drives) {
+    if (drive.kind != DriveSpec::Kind::winch) continue;
+    list.add("winch_speed_max.%", drive.name, view.largest_magnitude(drive.name + ".rate", view.all_phases()));
+    Peak pull;
+    for (const WireSpec& wire : s.wires) {
+      if (wire.winch != drive.name) continue;
+      const Peak tension = view.maximum(wire.name + ".tension", view.all_phases());
+      pull.take_larger(tension.value, tension.time);
+      if (wire.tension_max > 0.0) use.take_larger(tension.value / wire.tension_max, tension.time);
+    }
+    list.add("winch_pull_max.%", drive.name, pull);
+    pull_overall.take_larger(pull.value, pull.time);
+  }
+  list.add("winch_pull_max", pull_overall);
+  list.add("winch_utilisation_max", use);
+}
+
+void add_taglines(const RunView& view, MetricList& list) {
+  Peak tension_overall, speed_overall;
+  double saturated_sum = 0.0;
+  int active = 0;
+  for (const TaglineSpec& line : view.specification().taglines) {
+    const Peak tension = view.maximum(line.name + ".tension", view.all_phases());
+    const Peak speed = view.largest_magnitude(line.name + ".line_speed", view.all_phases());
+    list.add("tagline_tension_max.%", line.name, tension);
+    list.add("tagline_speed_max.%", line.name, speed);
+    tension_overall.take_larger(tension.value, tension.time);
+    speed_overall.take_larger(speed.value, speed.time);
+    const auto saturated = view.series(line.name + ".saturated");
+    if (saturated.empty() || !line.active) continue;
+    const double share = view.mean({0, saturated.size()}, [&](std::size_t i) { return saturated[i]; });
+    list.add("tagline_saturated.%", line.name, share, kNaN, "");
+    saturated_sum += share;
+    ++active;
+  }
+  list.add("tagline_tension_max", tension_overall);
+  list.add("tagline_speed_max", speed_overall);
+  if (active > 0) list.add("tagline_saturated", saturated_sum / active);
+}
+
+void add_moorings(const RunView& view, MetricList& list) {
+  Peak overall;
+  for (const MooringSpec& line : view.specification().moorings) {
+    const Peak tension = view.maximum(line.name + ".tension", view.all_phases());
+    list.add("mooring_tension_max.%", line.name, tension);
+    overall.take_larger(tension.value, tension.time);
+  }
+  list.add("mooring_tension_max", overall);
+}
+
+}  // namespace stillhook

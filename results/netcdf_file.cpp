@@ -1,0 +1,142 @@
+#include "results/netcdf_file.h"
+
+#include <stdexcept>
+
+namespace stillhook {
+
+NetcdfFile::NetcdfFile(const std::string& path, Mode mode, std::string shown) : shown_(std::move(shown)) {
+  if (mode == Mode::create)
+    check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), "cannot be written");
+  else
+    check(nc_open(path.c_str(), NC_NOWRITE, &id_), "cannot be read");
+}
+
+NetcdfFile::~NetcdfFile() {
+  if (id_ >= 0) nc_close(id_);
+}
+
+void NetcdfFile::check(int code, const std::string& what) const {
+  if (code != NC_NOERR) throw std::runtime_error(shown_ + ": " + what + ": " + nc_strerror(code));
+}
+
+void NetcdfFile::close() {
+  const int code = nc_close(id_);
+  id_ = -1;
+  check(code, "cannot be completed");
+}
+
+int NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
+  int dimension = -1;
+  check(nc_def_dim(id_, name.c_str(), size, &dimension), "dimension " + name);
+  return dimension;
+}
+
+int NetcdfFile::define(const std::string& name, nc_type type, const std::vector<int>& dimensions) {
+  int variable = -1;
+  check(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &variable),
+        "variable " + name);
+  return variable;
+}
+
+void NetcdfFile::compress(int variable) { check(nc_def_var_deflate(id_, variable, 1, 1, 2), "compression"); }
+
+void NetcdfFile::attribute(int variable, const std::string& name, const std::string& text) {
+  check(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.c_str()), "attribute " + name);
+}
+
+void NetcdfFile::attribute(int variable, const std::string& name, double value) {
+  check(nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, &value), "attribute " + name);
+}
+
+void NetcdfFile::put(int variable, const std::vector<double>& values) {
+  check(nc_put_var_double(id_, variable, values.data()), "cannot be written");
+}
+
+void NetcdfFile::put(int variable, const std::vector<int>& values) {
+  check(nc_put_var_int(id_, variable, values.data()), "cannot be written");
+}
+
+void NetcdfFile::put(int variable, const std::vector<std::string>& values) {
+  std::vector<const char*> pointers;
+  for (const std::string& value : values) pointers.push_back(value.c_str());
+  check(nc_put_var_string(id_, variable, pointers.data()), "cannot be written");
+}
+
+std::size_t NetcdfFile::size(const std::string& dimension) const {
+  int id = -1;
+  std::size_t size = 0;
+  if (nc_inq_dimid(id_, dimension.c_str(), &id) != NC_NOERR) return 0;
+  check(nc_inq_dimlen(id_, id, &size), "dimension " + dimension);
+  return size;
+}
+
+int NetcdfFile::find(const std::string& variable) const {
+  int id = -1;
+  check(nc_inq_varid(id_, variable.c_str(), &id), "is not the archive of a stillhook run: no variable " + variable);
+  return id;
+}
+
+std::string NetcdfFile::text(int variable, const std::string& name) const {
+  const std::string what = "is not the archive of a stillhook run: no attribute " + name;
+  std::size_t length = 0;
+  nc_type type = NC_NAT;
+  check(nc_inq_att(id_, variable, name.c_str(), &type, &length), what);
+  if (type != NC_CHAR) check(NC_EBADTYPE, what);
+  std::string value(length, '\0');
+  check(nc_get_att_text(id_, variable, name.c_str(), value.data()), what);
+  return value;
+}
+
+double NetcdfFile::number(int variable, const std::string& name) const {
+  const std::string what = "is not the archive of a stillhook run: no attribute " + name;
+  std::size_t length = 0;
+  nc_type type = NC_NAT;
+  check(nc_inq_att(id_, variable, name.c_str(), &type, &length), what);
+  if (length != 1) check(NC_EINVAL, what);
+  double value = 0.0;
+  check(nc_get_att_double(id_, variable, name.c_str(), &value), what);
+  return value;
+}
+
+void NetcdfFile::check_count(int variable, const std::string& name, std::size_t count) const {
+  int rank = 0;
+  check(nc_inq_varndims(id_, variable, &rank), name);
+  std::vector<int> dimensions(static_cast<std::size_t>(rank));
+  check(nc_inq_vardimid(id_, variable, dimensions.data()), name);
+  std::size_t total = 1;
+  for (int d : dimensions) {
+    std::size_t length = 0;
+    check(nc_inq_dimlen(id_, d, &length), name);
+    total *= length;
+  }
+  if (total != count) check(NC_EEDGE, "variable " + name + " has another size than expected");
+}
+
+std::vector<double> NetcdfFile::doubles(const std::string& variable, std::size_t count) const {
+  std::vector<double> values(count);
+  const int id = find(variable);
+  check_count(id, variable, count);
+  check(nc_get_var_double(id_, id, values.data()), "variable " + variable);
+  return values;
+}
+
+std::vector<int> NetcdfFile::integers(const std::string& variable, std::size_t count) const {
+  std::vector<int> values(count);
+  const int id = find(variable);
+  check_count(id, variable, count);
+  check(nc_get_var_int(id_, id, values.data()), "variable " + variable);
+  return values;
+}
+
+std::vector<std::string> NetcdfFile::strings(const std::string& variable, std::size_t count) const {
+  const int id = find(variable);
+  check_count(id, variable, count);
+  std::vector<char*> pointers(count, nullptr);
+  check(nc_get_var_string(id_, id, pointers.data()), "variable " + variable);
+  std::vector<std::string> values;
+  for (const char* p : pointers) values.emplace_back(p ? p : "");
+  nc_free_string(count, pointers.data());
+  return values;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,98 @@
+#include "results/report.h"
+
+#include <fmt/core.h>
+
+#include "results/files.h"
+#include "results/html.h"
+#include "results/report_parts.h"
+#include "results/summary.h"
+
+namespace stillhook {
+namespace {
+
+std::string extra_tables(const ReportData& data) {
+  std::string out;
+  for (const ReportTable& t : data.tables) {
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& cell : t.header) header.push_back(escape_html(cell));
+    for (const auto& row : t.rows) {
+      rows.emplace_back();
+      for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
+    }
+    out += "<h3>" + escape_html(t.title) + "</h3>" + html_table(header, rows);
+    if (!t.note.empty()) out += "<p><small>" + escape_html(t.note) + "</small></p>";
+  }
+  return out;
+}
+
+std::string statement(const ReportData& data) {
+  std::string out;
+  std::size_t from = 0;
+  while (from < data.statement.size()) {  // an empty line starts a new paragraph
+    std::size_t to = data.statement.find("\n\n", from);
+    if (to == std::string::npos) to = data.statement.size();
+    out += "<p style=\"white-space:pre-line\">" +
+           escape_html(std::string_view(data.statement).substr(from, to - from)) + "</p>";
+    from = to + 2;
+  }
+  return out;
+}
+
+std::string cost(const ReportData& data) {
+  const Trajectory& run = data.trajectory;
+  const double simulated = run.phases.empty() ? 0.0 : run.phases.back().end - run.phases.front().start;
+  std::string out = fmt::format("{} s simulated, {} steps", fixed_number(simulated, 0), run.steps);
+  if (run.wall > 0.0)
+    out += fmt::format(", {} s of computing: {} times real time", readable_number(run.wall, 3),
+                       readable_number(simulated / run.wall, 3));
+  return out;
+}
+
+}  // namespace
+
+std::string report_html(const ReportData& data) {
+  const RunView view(data.specification, data.trajectory);
+  std::string body;
+  std::string nav;
+  const auto section = [&](const char* id, const char* title, const std::string& content) {
+    if (content.empty()) return;
+    nav += fmt::format("<a href=\"#{}\">{}</a>", id, title);
+    body += html_section(id, title, content);
+  };
+  section("timeline", "Timeline of the operation", timeline_part(data));
+  section("statement", "What is asked", statement(data));
+  if (data.search) section("search", "Baseline and plan", search_part(*data.search));
+  section("limits", "Limits", limits_part(data));
+  section("procedure", "Procedure step by step", procedure_part(data, view));
+  section("plots", "Plots", plots_part(data, view));
+  section("metrics", "Metrics", metrics_part(data));
+  section("contacts", "Contacts", contacts_part(data));
+  section("poses", "Static poses", poses_part(data));
+  section("tables", "Further tables", extra_tables(data));
+  section("assumptions", "Assumptions and deviations", assumptions_part(data));
+  if (!data.case_text.empty())
+    section("case", "Case as resolved",
+            "<details><summary>Show the case file</summary><pre tabindex=\"0\">" + escape_html(data.case_text) +
+                "</pre></details>");
+
+  const std::string title = escape_html(data.title.empty() ? data.specification.name : data.title);
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+      "data:; "
+      "base-uri 'none'; form-action 'none'\">"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><meta name=\"generator\" "
+      "content=\"stillhook {}\">"
+      "<link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}</style></head>\n"
+      "<body><header><h1>{}</h1><p class=\"muted\">{}</p>{}</header>\n<main><nav "
+      "aria-label=\"Contents\">{}</nav>{}</main>\n"
+      "<footer>stillhook {} · {} · {}</footer></body></html>\n",
+      escape_html(data.program_version), title, report_style(), title,
+      escape_html(sea_sentence(data.specification.sea)), verdict_part(data), nav, body,
+      escape_html(data.program_version), escape_html(data.specification.name), cost(data));
+}
+
+void write_report(const ReportData& data, const std::string& path) { write_file(path, report_html(data)); }
+
+}  // namespace stillhook

@@ -1,0 +1,78 @@
+// report.html: the document of a run or of a search. One file, no request to anything outside it, no script; readable
+// on a telephone and printable on A4. Units are the operator's (tonnes, m/min, degrees): conversion from SI happens
+// here.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "results/limits.h"
+#include "results/metrics.h"
+
+namespace stillhook {
+
+/// A table made elsewhere (hydrostatics, natural periods, parameter estimates), shown as it is.
+struct ReportTable {
+  std::string title, note;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;  // the first cell names the row
+};
+
+/// What a search found, in plain data.
+struct SearchSection {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  /// One term of the objective: contribution = weight * value / scale.
+  struct Term {
+    std::string metric, unit;
+    double weight = 1.0, scale = 1.0;
+    double baseline_value = kNone, plan_value = kNone;
+    double baseline_contribution = kNone, plan_contribution = kNone;
+  };
+  /// A design variable, in the unit of its case key.
+  struct Variable {
+    std::string key;
+    double lower = kNone, upper = kNone, baseline = kNone, plan = kNone;
+  };
+  /// One evaluation, in the order they were made.
+  struct Point {
+    double objective = kNone;
+    bool feasible = false;
+  };
+
+  std::string algorithm, status;  // status: how the search ended, as a sentence
+  int evaluations = 0, seed = 0;
+  double simulation_equivalents = 0.0;
+  double wall = kNone;  // s
+  double baseline_objective = kNone, plan_objective = kNone, random_objective = kNone;
+  bool baseline_feasible = false, plan_feasible = false, random_feasible = false;
+  std::vector<Term> terms;
+  std::vector<Variable> variables;
+  std::vector<LimitCheck> baseline_limits, plan_limits;  // same order, worst scenario of each
+  std::vector<Point> history, random_history;
+  std::vector<std::string> scenarios;  // one sentence each
+};
+
+struct ReportData {
+  std::string title;
+  std::string statement;  // the problem in words
+  std::string case_text;  // the case as resolved, TOML
+  std::string program_version;
+  const Specification& specification;
+  const Trajectory& trajectory;  // of the plan, for a search
+  const Metrics& metrics;
+  const std::vector<LimitCheck>& limits;
+  std::vector<std::string> notes;  // assumptions and deviations, one sentence each
+  std::vector<StaticPose> poses;   // the poses the case asks to report
+  std::vector<ReportTable> tables;
+  const SearchSection* search = nullptr;
+};
+
+/// The whole page.
+std::string report_html(const ReportData& data);
+
+/// Writes report_html() to a file, whole or not at all. Throws std::runtime_error.
+void write_report(const ReportData& data, const std::string& path);
+
+}  // namespace stillhook

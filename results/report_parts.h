@@ -1,0 +1,45 @@
+// The parts of the report, each a piece of HTML. Used by report*.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/plot.h"
+#include "results/report.h"
+#include "results/run_view.h"
+
+namespace stillhook {
+
+/// A value with its unit as people read it: "0.42 m", "4 903 kN (500.0 t)".
+struct Shown {
+  std::string value;  // in the unit of `unit`
+  std::string unit;
+  std::string aside;  // the same in the operator's unit, may be empty
+};
+
+/// A metric's value for its catalogue unit; `name` decides which second unit helps (m/min for winches, t for loads).
+Shown show_metric(const std::string& name, const std::string& unit, double value);
+
+/// "1:02:05" from seconds, "2:05" below an hour.
+std::string clock_time(double seconds);
+
+/// A table in a box that scrolls sideways when the page is narrow. Cells are HTML already; the first of a row is its
+/// heading. `numeric_from`: first column set flush right; -1 for none.
+std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
+                       int numeric_from = 1);
+std::string html_section(const std::string& id, const std::string& title, const std::string& body);
+
+std::string report_style();                        // report_style.cpp
+std::string verdict_part(const ReportData& data);  // report_verdict.cpp
+std::string timeline_part(const ReportData& data);
+std::string limits_part(const ReportData& data);  // report_tables.cpp
+std::string metrics_part(const ReportData& data);
+std::string contacts_part(const ReportData& data);
+std::string procedure_part(const ReportData& data, const RunView& view);  // report_procedure.cpp
+std::string poses_part(const ReportData& data);
+std::string assumptions_part(const ReportData& data);
+std::string plots_part(const ReportData& data, const RunView& view);  // report_plots.cpp
+std::string search_part(const SearchSection& search);                 // report_search.cpp
+std::string sea_sentence(const SeaSpec& sea);                         // report_procedure.cpp
+
+}  // namespace stillhook

@@ -1,0 +1,232 @@
+// The plots of the report, every one with the phases shaded and the limits that apply drawn in.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "results/clearance.h"
+#include "results/html.h"
+#include "results/report_parts.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi, kTonnes = 1.0 / 9806.65, kPerMinute = 60.0;
+
+class Plots {
+ public:
+  Plots(const ReportData& data, const RunView& view) : data_(data), view_(view) {
+    for (const PhaseRecord& p : data.trajectory.phases) phases_.push_back({readable_name(p.name), p.start, p.end});
+  }
+
+  Plot make(const std::string& title, const std::string& y_label) const {
+    Plot plot;
+    plot.title = title;
+    plot.y_label = y_label;
+    plot.phases = phases_;
+    return plot;
+  }
+
+  /// Adds a channel if it was recorded.
+  void line(Plot& plot, const std::string& channel, const std::string& label, double factor) const {
+    const auto values = view_.series(channel);
+    if (values.empty()) return;
+    PlotLine l{label, data_.trajectory.time, {values.begin(), values.end()}};
+    for (double& v : l.value) v *= factor;
+    plot.lines.push_back(std::move(l));
+  }
+
+  /// The static value of a channel along the run, one point every few seconds.
+  void static_line(Plot& plot, const std::string& channel, const std::string& label, double factor) const {
+    PlotLine l{label, {}, {}};
+    for (std::size_t p = 0; p < data_.trajectory.phases.size(); ++p) {
+      const PhaseRecord& phase = data_.trajectory.phases[p];
+      const int steps = std::max(2, static_cast<int>((phase.end - phase.start) / 5.0));
+      for (int i = 0; i <= steps; ++i) {
+        const double t = phase.start + (phase.end - phase.start) * i / steps;
+        l.time.push_back(t);
+        l.value.push_back(factor * view_.planned_at(p, t, channel));
+      }
+    }
+    if (std::any_of(l.value.begin(), l.value.end(), [](double v) { return std::isfinite(v); }))
+      plot.lines.push_back(std::move(l));
+  }
+
+  /// Draws the limits on `metric`, on both sides of zero if the metric is a magnitude.
+  void limit(Plot& plot, const std::string& metric, double factor, const std::string& unit, bool both_sides) const {
+    for (const LimitCheck& c : data_.limits) {
+      if (c.metric != metric) continue;
+      const double value = factor * c.limit;
+      plot.limits.push_back({fmt::format("limit {}{} {}", both_sides ? "±" : "", readable_number(value), unit), value});
+      if (both_sides) plot.limits.push_back({"", -value});
+    }
+  }
+
+  void contacts(Plot& plot) const {
+    const double start = data_.trajectory.phases.empty() ? 0.0 : data_.trajectory.phases.front().start;
+    for (const ContactEvent& c : data_.trajectory.contacts)
+      if (c.start > start && plot.markers.size() < 200) plot.markers.push_back({c.start, ""});
+    plot.marker_label = "contact";
+  }
+
+  std::string figure(const Plot& plot, const std::string& caption = "") const {
+    if (plot.lines.empty()) return {};
+    return fmt::format("<figure><div class=\"scroll\" tabindex=\"0\">{}</div>{}</figure>", draw_plot(plot),
+                       caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>");
+  }
+
+ private:
+  const ReportData& data_;
+  const RunView& view_;
+  std::vector<PlotPhase> phases_;
+};
+
+std::string load_plots(const ReportData& data, const Plots& plots) {
+  const std::string& load = data.specification.operation.load;
+  std::string out;
+  for (const auto& [axis, title] :
+       {std::pair{"x", "Load, fore and aft (x)"}, {"y", "Load, athwart (y)"}, {"z", "Load, height (z)"}}) {
+    Plot plot = plots.make(title, "position, m");
+    plots.line(plot, load + "." + axis, "load", 1.0);
+    plots.static_line(plot, load + "." + axis, "calm water", 1.0);
+    plots.contacts(plot);
+    out += plots.figure(plot);
+  }
+  for (const auto& [axis, title] : {std::pair{"roll", "Load, roll"}, {"pitch", "Load, pitch"}, {"yaw", "Load, yaw"}}) {
+    Plot plot = plots.make(title, "angle, °");
+    plot.height = 210.0;
+    plots.line(plot, load + "." + axis, "load", kDegrees);
+    out += plots.figure(plot);
+  }
+  return out;
+}
+
+/// Hoist wire tensions with the band from static tension to the DAF limit.
+std::string hoist_plot(const ReportData& data, const RunView& view, const Plots& plots) {
+  Plot plot = plots.make("Hoist wire tensions", "tension, t");
+  double static_sum = 0.0, limit = std::numeric_limits<double>::quiet_NaN();
+  int count = 0;
+  for (const WireSpec& wire : data.specification.wires) {
+    if (wire.role != WireSpec::Role::hoist) continue;
+    plots.line(plot, wire.name + ".tension", readable_name(wire.name), kTonnes);
+    for (std::size_t p : view.phases_of({PhaseSpec::Stage::hanging})) {
+      const double at_rest = view.static_at(p, data.trajectory.phases[p].end, wire.name + ".tension");
+      if (!std::isfinite(at_rest)) continue;
+      static_sum += at_rest;
+      ++count;
+    }
+  }
+  for (const LimitCheck& c : data.limits)
+    if (c.metric.starts_with("daf") && c.is_max && !(limit <= c.limit)) limit = c.limit;
+  if (count > 0 && std::isfinite(limit)) {
+    const double at_rest = kTonnes * static_sum / count;
+    plot.ranges.push_back({fmt::format("static to DAF {}", readable_number(limit)), at_rest, at_rest * limit});
+  }
+  plots.contacts(plot);
+  return plots.figure(plot,
+                      "The band reaches from the mean static tension of a fall while hanging to that tension times the "
+                      "smallest DAF limit.");
+}
+
+/// Breaks the lines of hoist wire angles where the wire is slack: its direction means nothing there.
+void blank_slack(const ReportData& data, const RunView& view, Plot& plot) {
+  for (const WireSpec& wire : data.specification.wires) {
+    const auto tension = view.series(wire.name + ".tension");
+    for (PlotLine& line : plot.lines) {
+      if (line.label != readable_name(wire.name) || tension.size() != line.value.size()) continue;
+      for (std::size_t i = 0; i < tension.size(); ++i)
+        if (tension[i] <= 0.0) line.value[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+std::string wire_plots(const ReportData& data, const RunView& view, const Plots& plots) {
+  std::string out = hoist_plot(data, view, plots);
+  Plot other = plots.make("Luffing, stay and other wires", "tension, t");
+  for (const WireSpec& wire : data.specification.wires)
+    if (wire.role != WireSpec::Role::hoist)
+      plots.line(other, wire.name + ".tension", readable_name(wire.name), kTonnes);
+  out += plots.figure(other);
+  Plot rates = plots.make("Winch rates (hauling in positive)", "rate, m/min");
+  for (const DriveSpec& drive : data.specification.drives)
+    if (drive.kind == DriveSpec::Kind::winch)
+      plots.line(rates, drive.name + ".rate", readable_name(drive.name), kPerMinute);
+  out += plots.figure(rates);
+  for (const auto& [quantity, title, metric] : {std::tuple{".off_lead", "Off-lead of the hoist wires", "offlead_max"},
+                                                {".side_lead", "Side-lead of the hoist wires", "sidelead_max"}}) {
+    Plot lead = plots.make(title, "angle, °");
+    for (const WireSpec& wire : data.specification.wires)
+      if (wire.role == WireSpec::Role::hoist)
+        plots.line(lead, wire.name + quantity, readable_name(wire.name), kDegrees);
+    blank_slack(data, view, lead);
+    plots.limit(lead, metric, 1.0, "°", true);
+    out += plots.figure(lead);
+  }
+  return out;
+}
+
+std::string line_plots(const ReportData& data, const Plots& plots) {
+  Plot tension = plots.make("Tagline tensions", "tension, t"),
+       speed = plots.make("Tagline line speeds (paying out positive)", "speed, m/min");
+  bool speed_limited = false;
+  for (const TaglineSpec& line : data.specification.taglines) {
+    plots.line(tension, line.name + ".tension", readable_name(line.name), kTonnes);
+    plots.line(speed, line.name + ".line_speed", readable_name(line.name), kPerMinute);
+    if (line.speed_max > 0.0 && !speed_limited) {
+      speed.limits.push_back({fmt::format("winch limit ±{} m/min", readable_number(kPerMinute * line.speed_max)),
+                              kPerMinute * line.speed_max});
+      speed.limits.push_back({"", -kPerMinute * line.speed_max});
+      speed_limited = true;
+    }
+  }
+  plots.limit(tension, "tagline_tension_max", 1000.0 * kTonnes, "t", false);
+  Plot mooring = plots.make("Mooring line tensions", "tension, t");
+  for (const MooringSpec& line : data.specification.moorings)
+    plots.line(mooring, line.name + ".tension", readable_name(line.name), kTonnes);
+  return plots.figure(tension) + plots.figure(speed) + plots.figure(mooring);
+}
+
+std::string geometry_plots(const ReportData& data, const Plots& plots) {
+  std::string out;
+  Plot clearance = plots.make("Clearances", "distance, m");
+  double shown_limit = std::numeric_limits<double>::quiet_NaN();
+  for (ClearanceSeries& series : compute_clearances(data.specification, data.trajectory)) {
+    if (series.time.empty()) continue;
+    for (const LimitCheck& c : data.limits)
+      if (c.metric == "clearance_min." + series.name && c.limit != shown_limit) {
+        clearance.limits.push_back(
+            {fmt::format("{} at least {} m", readable_name(series.name), readable_number(c.limit)), c.limit});
+        shown_limit = c.limit;
+      }
+    clearance.lines.push_back({readable_name(series.name), std::move(series.time), std::move(series.distance)});
+  }
+  out += plots.figure(clearance);
+  const std::string& crane = data.specification.operation.crane;
+  for (const auto& [quantity, title, metric] : {std::tuple{".roll", "Heel of the crane", "heel_max"},
+                                                {".pitch", "Trim of the crane (bow down positive)", "trim_max"}}) {
+    Plot plot = plots.make(title, "angle, °");
+    plot.height = 210.0;
+    plots.line(plot, crane + quantity, "in waves", kDegrees);
+    plots.static_line(plot, crane + quantity, "calm water", kDegrees);
+    plots.limit(plot, metric, 1.0, "°", true);
+    out += plots.figure(plot);
+  }
+  Plot contact = plots.make("Contact forces", "normal force, t");
+  for (const ContactSpec& spec : data.specification.contacts)
+    plots.line(contact, spec.name + ".force", readable_name(spec.name), kTonnes);
+  plots.contacts(contact);
+  return out + plots.figure(contact);
+}
+
+}  // namespace
+
+std::string plots_part(const ReportData& data, const RunView& view) {
+  if (data.trajectory.time.size() < 2) return "<p>No samples were recorded.</p>";
+  const Plots plots(data, view);
+  return "<h3>Load</h3>" + load_plots(data, plots) + "<h3>Wires and winches</h3>" + wire_plots(data, view, plots) +
+         "<h3>Taglines and moorings</h3>" + line_plots(data, plots) + "<h3>Geometry, vessel and contact</h3>" +
+         geometry_plots(data, plots);
+}
+
+}  // namespace stillhook

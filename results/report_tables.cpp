@@ -1,0 +1,181 @@
+// Limits, metrics and contacts as tables.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/html.h"
+#include "results/report_parts.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s2, for tonnes-force of a tension
+
+std::string cell(const std::string& name, const std::string& unit, double value) {
+  const Shown shown = show_metric(name, unit, value);
+  std::string text = shown.value + (shown.unit.empty() || shown.value == "–" ? "" : "\u00a0" + shown.unit);
+  if (!shown.aside.empty()) text += " <small>(" + shown.aside + ")</small>";
+  return text;
+}
+
+std::string when(double time) { return std::isfinite(time) ? clock_time(time) : "–"; }
+
+std::string phase_cell(const std::string& phase) { return phase.empty() ? "–" : escape_html(readable_name(phase)); }
+
+/// Metrics of one kind of element: a row an element, a column a quantity.
+std::string element_table(const ReportData& data, const char* title, const std::vector<std::string>& kinds) {
+  std::vector<const MetricDefinition*> columns;
+  std::vector<std::string> elements;
+  for (const MetricDefinition& d : metric_catalogue()) {
+    if (d.element.empty() || std::find(kinds.begin(), kinds.end(), d.element) == kinds.end()) continue;
+    bool used = false;
+    for (const Metric& m : data.metrics.items) {
+      if (metric_definition(m.name) != &d) continue;
+      used = true;
+      const std::string element = m.name.substr(d.name.find('%'));
+      if (std::find(elements.begin(), elements.end(), element) == elements.end()) elements.push_back(element);
+    }
+    if (used) columns.push_back(&d);
+  }
+  if (columns.empty()) return {};
+  std::vector<std::string> header = {""};
+  for (const MetricDefinition* d : columns)
+    header.push_back(fmt::format("<span title=\"{}\">{}</span>{}", escape_html(d->description),
+                                 escape_html(readable_name(d->name.substr(0, d->name.find('%') - 1))),
+                                 d->unit == "1" ? "" : ",<br>" + d->unit));
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& element : elements) {
+    rows.push_back({escape_html(readable_name(element))});
+    for (const MetricDefinition* d : columns) {
+      const std::string name = d->name.substr(0, d->name.find('%')) + element;
+      const Shown shown = show_metric(name, d->unit, data.metrics.value(name));
+      rows.back().push_back(shown.value + (shown.aside.empty() ? "" : "<br><small>" + shown.aside + "</small>"));
+    }
+  }
+  return fmt::format("<h3>{}</h3>{}", title, html_table(header, rows));
+}
+
+}  // namespace
+
+Shown show_metric(const std::string& name, const std::string& unit, double value) {
+  if (!std::isfinite(value)) return {"–", unit == "1" ? "" : unit, ""};
+  const auto minutes = [&] { return fixed_number(60.0 * value, 2) + " m/min"; };
+  if (unit == "kN")
+    return {fixed_number(value, std::abs(value) < 100.0 ? 1 : 0), unit,
+            fixed_number(value / kGravity, std::abs(value) < 1000.0 ? 2 : 1) + " t"};
+  if (unit == "m/s")
+    return {fixed_number(value, 3), unit, name.starts_with("winch") || name.starts_with("tagline") ? minutes() : ""};
+  if (unit == "s") return {fixed_number(value, 1), unit, value >= 60.0 ? clock_time(value) : ""};
+  if (unit == "m" || unit == "deg") return {fixed_number(value, 2), unit == "deg" ? "°" : unit, ""};
+  if (unit == "1") {
+    if (name.starts_with("tagline_saturated"))
+      return {fixed_number(value, 3), "", fixed_number(100.0 * value, 1) + " %"};
+    return {value == std::round(value) ? fixed_number(value, 0) : fixed_number(value, 3), "", ""};
+  }
+  return {readable_number(value), unit, ""};
+}
+
+std::string clock_time(double seconds) {
+  if (!std::isfinite(seconds)) return "–";
+  const long s = std::lround(seconds);
+  if (s < 3600) return fmt::format("{}:{:02d}", s / 60, s % 60);
+  return fmt::format("{}:{:02d}:{:02d}", s / 3600, s / 60 % 60, s % 60);
+}
+
+std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
+                       int numeric_from) {
+  const auto cls = [&](std::size_t i) {
+    return numeric_from >= 0 && static_cast<int>(i) >= numeric_from ? " class=\"n\"" : "";
+  };
+  std::string out = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
+  for (std::size_t i = 0; i < header.size(); ++i) out += fmt::format("<th scope=\"col\"{}>{}</th>", cls(i), header[i]);
+  out += "</tr></thead><tbody>";
+  for (const std::vector<std::string>& row : rows) {
+    if (row.size() == 1 && header.size() > 1) {  // a heading within the table
+      out += fmt::format("<tr class=\"group\"><th colspan=\"{}\">{}</th></tr>", header.size(), row[0]);
+      continue;
+    }
+    out += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      out += i == 0 ? "<th scope=\"row\">" + row[i] + "</th>" : fmt::format("<td{}>{}</td>", cls(i), row[i]);
+    out += "</tr>";
+  }
+  return out + "</tbody></table></div>";
+}
+
+std::string html_section(const std::string& id, const std::string& title, const std::string& body) {
+  if (body.empty()) return {};
+  return fmt::format("<section id=\"{}\"><h2>{}</h2>{}</section>", id, title, body);
+}
+
+std::string limits_part(const ReportData& data) {
+  if (data.limits.empty()) return "<p>The case sets no limits.</p>";
+  std::vector<std::vector<std::string>> rows;
+  for (const LimitCheck& c : data.limits) {
+    const char* verdict = c.pass   ? "<span class=\"pass\">✓ kept</span>"
+                          : c.hard ? "<span class=\"fail\">✗ broken</span>"
+                                   : "<span class=\"warn\">! warning</span>";
+    const double share = relative_margin(c);
+    rows.push_back(
+        {escape_html(c.metric), cell(c.metric, c.unit, c.value),
+         (c.is_max ? "≤\u00a0" : "≥\u00a0") + cell(c.metric, c.unit, c.limit),
+         show_metric(c.metric, c.unit, c.margin).value +
+             (std::isfinite(share) ? fmt::format(" <small>({} %)</small>", fixed_number(100.0 * share, 0)) : ""),
+         verdict, when(c.time), phase_cell(c.phase), c.source.empty() ? "case" : escape_html(c.source)});
+  }
+  return html_table({"criterion", "value", "limit", "margin", "verdict", "reached at", "phase", "source of the limit"},
+                    rows, -1);
+}
+
+std::string metrics_part(const ReportData& data) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Metric& m : data.metrics.items) {
+    const MetricDefinition* d = metric_definition(m.name);
+    if (!d || !d->element.empty()) continue;
+    rows.push_back({escape_html(m.name), cell(m.name, m.unit, m.value), when(m.time), phase_cell(m.phase),
+                    escape_html(d->description)});
+  }
+  std::string out =
+      "<h3>Over the operation</h3>" + html_table({"metric", "value", "reached at", "phase", "meaning"}, rows, -1);
+  out += element_table(data, "Motion of the load by phase", {"phase"});
+  out += element_table(data, "Wires", {"wire", "hoist wire"});
+  out += element_table(data, "Winches", {"winch"});
+  out += element_table(data, "Taglines", {"tagline"});
+  out += element_table(data, "Mooring lines", {"mooring"});
+  out += element_table(data, "Clearances", {"clearance"});
+  return out;
+}
+
+std::string contacts_part(const ReportData& data) {
+  const std::vector<ContactEvent>& contacts = data.trajectory.contacts;
+  if (contacts.empty()) return "<p>Nothing touched.</p>";
+  constexpr std::size_t kShown = 60;
+  const double lift_off = data.metrics.value("lift_off_time");
+  const double run_start = data.trajectory.phases.empty() ? 0.0 : data.trajectory.phases.front().start;
+  std::vector<std::vector<std::string>> rows;
+  for (const ContactEvent& c : contacts) {
+    if (rows.size() == kShown) break;
+    const char* kind = c.start <= run_start ? "at rest at the start"
+                       : c.role == ContactSpec::Role::pickup && c.start > lift_off
+                           ? "<span class=\"fail\">re-hit</span>"
+                       : c.role == ContactSpec::Role::pickup ? "before lift-off"
+                       : c.role == ContactSpec::Role::target ? "set-down"
+                                                             : "contact";
+    rows.push_back({escape_html(readable_name(c.contact)), kind, clock_time(c.start), fixed_number(c.end - c.start, 1),
+                    fixed_number(c.approach_speed, 3), fixed_number(c.peak_force / 1000.0 / kGravity, 1),
+                    fixed_number(c.impulse / 1000.0, 1),
+                    fmt::format("{}, {}, {}", fixed_number(c.place.x(), 2), fixed_number(c.place.y(), 2),
+                                fixed_number(c.place.z(), 2)),
+                    phase_cell(c.phase)});
+  }
+  std::string out = html_table({"contact", "kind", "time", "length, s", "approach speed, m/s", "peak force, t",
+                                "impulse, kN s", "place x, y, z, m", "phase"},
+                               rows, -1);
+  if (contacts.size() > kShown)
+    out += fmt::format("<p><small>The first {} of {} contacts; all are in history.nc.</small></p>", kShown,
+                       contacts.size());
+  return out;
+}
+
+}  // namespace stillhook

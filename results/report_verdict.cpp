@@ -1,0 +1,136 @@
+// First screen: verdict, headline numbers, the operation as a timeline.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/html.h"
+#include "results/report_parts.h"
+#include "results/summary.h"
+
+namespace stillhook {
+namespace {
+
+const char* stage_class(PhaseSpec::Stage stage) {
+  switch (stage) {
+    case PhaseSpec::Stage::on_barge:
+      return "on_barge";
+    case PhaseSpec::Stage::transfer:
+      return "transfer";
+    case PhaseSpec::Stage::hanging:
+      return "hanging";
+    case PhaseSpec::Stage::set_down:
+      return "set_down";
+    case PhaseSpec::Stage::landed:
+      break;
+  }
+  return "landed";
+}
+
+std::string value_with_unit(const std::string& name, const std::string& unit, double value) {
+  const Shown shown = show_metric(name, unit, value);
+  return shown.value + (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
+std::string governing_sentence(const ReportData& data) {
+  const LimitCheck* governing = governing_check(data.limits);
+  if (!governing) return "<p>The case sets no limits.</p>";
+  const std::string name = "<b>" + escape_html(governing->metric) + "</b>";
+  if (!std::isfinite(governing->value))
+    return fmt::format("<p>Governing criterion: {} has no value in this run, so it cannot be shown to be kept.</p>",
+                       name);
+  std::string when;
+  if (!governing->phase.empty()) when += " in " + escape_html(readable_name(governing->phase));
+  if (std::isfinite(governing->time)) when += " at " + clock_time(governing->time);
+  std::string share;
+  if (governing->limit != 0.0 && std::isfinite(relative_margin(*governing)))
+    share = fmt::format(", a margin of {} %", fixed_number(100.0 * relative_margin(*governing), 0));
+  return fmt::format("<p>Governing criterion: {} = {}, {} {}{}{}.</p>", name,
+                     value_with_unit(governing->metric, governing->unit, governing->value),
+                     governing->is_max ? "limit" : "at least",
+                     value_with_unit(governing->metric, governing->unit, governing->limit), share, when);
+}
+
+std::string tile(const ReportData& data, const char* metric, const char* label, bool operator_unit) {
+  const Metric* m = data.metrics.find(metric);
+  if (!m) return {};
+  const Shown shown = show_metric(m->name, m->unit, m->value);
+  std::string value = shown.value, unit = shown.unit;
+  if (operator_unit && !shown.aside.empty()) {
+    const std::size_t space = shown.aside.find(' ');
+    value = shown.aside.substr(0, space);
+    unit = space == std::string::npos ? "" : shown.aside.substr(space + 1);
+  }
+  return fmt::format("<div class=\"tile\"><b>{} <span>{}</span></b><div>{}</div></div>", value, unit, label);
+}
+
+}  // namespace
+
+std::string verdict_part(const ReportData& data) {
+  const auto failed =
+      std::count_if(data.limits.begin(), data.limits.end(), [](const LimitCheck& c) { return c.hard && !c.pass; });
+  const auto warned =
+      std::count_if(data.limits.begin(), data.limits.end(), [](const LimitCheck& c) { return !c.hard && !c.pass; });
+  std::string cls, headline, detail;
+  if (data.trajectory.status != RunStatus::completed) {
+    cls = " fail";
+    headline = "Not completed: " + readable_name(status_name(data.trajectory.status));
+    detail = "<p>" + escape_html(data.trajectory.message) + "</p><p>What follows covers the part that ran.</p>";
+  } else if (!within_limits(data.metrics, data.limits)) {
+    cls = " fail";
+    headline = fmt::format("Outside limits: {} of {} criteria", failed, data.limits.size());
+  } else if (warned > 0) {
+    cls = " warn";
+    headline = fmt::format("Within limits, with {} warning{}", warned, warned == 1 ? "" : "s");
+  } else {
+    headline = data.limits.empty() ? "Completed" : "Within limits";
+  }
+  std::string out = fmt::format("<div class=\"verdict{}\" role=\"status\"><strong>{}</strong>{}{}</div>", cls,
+                                escape_html(headline), detail, governing_sentence(data));
+  out += "<div class=\"tiles\">";
+  out += tile(data, "daf_total", "DAF, total hook load", false) + tile(data, "daf_max", "DAF, worst fall", false);
+  out += tile(data, "hook_load_max", "largest hook load", true);
+  out += tile(data, "sway_rms", "sway of the load, rms", false) + tile(data, "sway_peak", "sway, largest", false);
+  out += tile(data, "offlead_max", "off-lead", false) + tile(data, "sidelead_max", "side-lead", false);
+  out += tile(data, "rehits", "re-hits after lift-off", false);
+  out += tile(data, "rehit_speed_max", "fastest re-hit", false);
+  out += tile(data, "setdown_offset", "off target at the end", false);
+  out += tile(data, "setdown_speed", "set-down speed", false);
+  out += tile(data, "tagline_saturated", "tagline winches saturated", true);
+  out += tile(data, "heel_max", "heel of the crane", false) + tile(data, "trim_max", "trim of the crane", false);
+  out += tile(data, "duration", "duration, h:min:s", true);
+  return out + "</div>";
+}
+
+std::string timeline_part(const ReportData& data) {
+  const std::vector<PhaseRecord>& phases = data.trajectory.phases;
+  if (phases.empty()) return "<p>No phase was begun.</p>";
+  const double start = phases.front().start, span = std::max(1e-9, phases.back().end - start);
+  std::string bars, list, ticks;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const PhaseRecord& p = phases[i];
+    const double share = 100.0 * (p.end - p.start) / span;
+    const char* cls = stage_class(p.stage);
+    bars += fmt::format("<i class=\"{}\" style=\"width:{:.3f}%\" title=\"{}\">{}</i>", cls, share,
+                        escape_html(readable_name(p.name)), share > 2.2 ? std::to_string(i + 1) : "");
+    list += fmt::format("<li><b class=\"{}\">{}</b><span>{}{}</span><small>{} + {}</small></li>", cls, i + 1,
+                        escape_html(readable_name(p.name)),
+                        p.event_timed_out ? " <span class=\"warn\">event timed out</span>" : "", clock_time(p.start),
+                        clock_time(p.end - p.start));
+  }
+  std::size_t shown = 0;
+  for (const ContactEvent& c : data.trajectory.contacts)
+    if (c.start > start && shown++ < 400)
+      ticks += fmt::format("<b style=\"left:{:.2f}%\" title=\"{} at {}\"></b>", 100.0 * (c.start - start) / span,
+                           escape_html(c.contact), clock_time(c.start));
+  return fmt::format(
+      "<div class=\"track\" role=\"img\" aria-label=\"Phases of the operation to scale\">{}</div>"
+      "<div class=\"ticks\" aria-hidden=\"true\">{}</div>{}<ol class=\"phases\">{}</ol>"
+      "<small>Start + duration, h:min:s. Colours: "
+      "<b style=\"color:#5b6672\">on the barge</b>, <b style=\"color:#a83a00\">load transfer</b>, "
+      "<b style=\"color:#005c94\">hanging</b>, <b style=\"color:#87357a\">set-down</b>, "
+      "<b style=\"color:#00603a\">landed</b>.</small>",
+      bars, ticks, ticks.empty() ? "" : "<small>Marks under the bar: contacts.</small>", list);
+}
+
+}  // namespace stillhook

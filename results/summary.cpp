@@ -1,0 +1,122 @@
+#include "results/summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "results/files.h"
+
+namespace stillhook {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json metrics_json(const Metrics& metrics) {
+  Json all = Json::object();
+  for (const Metric& m : metrics.items)
+    all[m.name] = {{"value", number(m.value)}, {"unit", m.unit}, {"time", number(m.time)}, {"phase", m.phase}};
+  return all;
+}
+
+Json limits_json(const std::vector<LimitCheck>& checks) {
+  Json all = Json::array();
+  for (const LimitCheck& c : checks)
+    all.push_back({{"name", c.metric},
+                   {"unit", c.unit},
+                   {"sense", c.is_max ? "max" : "min"},
+                   {"value", number(c.value)},
+                   {"limit", number(c.limit)},
+                   {"margin", number(c.margin)},
+                   {"time", number(c.time)},
+                   {"phase", c.phase},
+                   {"hard", c.hard},
+                   {"pass", c.pass},
+                   {"source", c.source}});
+  return all;
+}
+
+void add_search(const Summary& summary, Json& document) {
+  if (summary.objective)
+    document["objective"] = {{"baseline", number(summary.objective->baseline)},
+                             {"plan", number(summary.objective->plan)},
+                             {"random_search", number(summary.objective->random_search)}};
+  if (summary.search)
+    document["search"] = {{"algorithm", summary.search->algorithm},
+                          {"evaluations", summary.search->evaluations},
+                          {"simulation_equivalents", number(summary.search->simulation_equivalents)},
+                          {"seed", summary.search->seed}};
+  if (summary.variables.empty()) return;
+  Json& variables = document["variables"] = Json::array();
+  for (const VariableSummary& v : summary.variables)
+    variables.push_back({{"name", v.name},
+                         {"lower", number(v.lower)},
+                         {"upper", number(v.upper)},
+                         {"baseline", number(v.baseline)},
+                         {"plan", number(v.plan)}});
+}
+
+}  // namespace
+
+std::string status_name(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::not_run:
+      break;
+  }
+  return "not_run";
+}
+
+Summary summarise(const Specification& specification, const Trajectory& trajectory, const Metrics& metrics,
+                  const std::vector<LimitCheck>& limits) {
+  Summary summary;
+  summary.case_name = specification.name;
+  summary.sea = specification.sea.active;
+  summary.status = trajectory.status;
+  summary.message = trajectory.message;
+  if (!trajectory.phases.empty()) summary.simulated = trajectory.phases.back().end - trajectory.phases.front().start;
+  summary.wall = trajectory.wall;
+  summary.metrics = metrics;
+  summary.limits = limits;
+  return summary;
+}
+
+std::string summary_json(const Summary& summary) {
+  Json document;
+  document["schema_version"] = Summary::kSchemaVersion;
+  document["program"] = "stillhook " + summary.program_version;
+  document["case"] = summary.case_name;
+  document["verb"] = summary.verb;
+  document["sea"] = summary.sea;
+  document["status"] = status_name(summary.status);
+  document["message"] = summary.message;
+  document["within_limits"] = within_limits(summary.metrics, summary.limits);
+  const LimitCheck* governing = governing_check(summary.limits);
+  document["governing"] = governing ? Json(governing->metric) : Json(nullptr);
+  document["simulated_s"] = number(summary.simulated);
+  document["wall_s"] = number(summary.wall);
+  document["real_time_factor"] = number(summary.simulated / summary.wall);
+  document["metrics"] = metrics_json(summary.metrics);
+  document["limits"] = limits_json(summary.limits);
+  add_search(summary, document);
+  if (!summary.estimates.empty()) {
+    Json& estimates = document["estimates"] = Json::array();
+    for (const EstimateSummary& e : summary.estimates)
+      estimates.push_back({{"name", e.name},
+                           {"unit", e.unit},
+                           {"value", number(e.value)},
+                           {"low", number(e.low)},
+                           {"high", number(e.high)}});
+  }
+  // Names come from the case file; bytes that are not UTF-8 are replaced rather than thrown at the user at the end.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const Summary& summary, const std::string& path) { write_file(path, summary_json(summary)); }
+
+}  // namespace stillhook

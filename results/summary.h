@@ -1,0 +1,74 @@
+// summary.json: the result of a verb for programs to read. Its keys are documented in docs/summary.md.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/limits.h"
+#include "results/metrics.h"
+
+namespace stillhook {
+
+/// The objective of a search at the case as given, at the plan found and at the best of a random search with the same
+/// number of evaluations. NaN = not there.
+struct ObjectiveSummary {
+  double baseline = std::numeric_limits<double>::quiet_NaN();
+  double plan = std::numeric_limits<double>::quiet_NaN();
+  double random_search = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What a search did.
+struct SearchSummary {
+  std::string algorithm;
+  int evaluations = 0;
+  double simulation_equivalents = 0.0;  // simulations of whole operations, scenarios and gradients counted
+  int seed = 0;
+};
+
+/// A design variable of a search, in the unit of its case key.
+struct VariableSummary {
+  std::string name;
+  double lower = std::numeric_limits<double>::quiet_NaN(), upper = std::numeric_limits<double>::quiet_NaN();
+  double baseline = std::numeric_limits<double>::quiet_NaN(), plan = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A fitted parameter with its confidence interval.
+struct EstimateSummary {
+  std::string name, unit;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct Summary {
+  static constexpr int kSchemaVersion = 1;
+  std::string case_name, verb, sea;  // sea: name of the sea state
+  std::string program_version;
+  RunStatus status = RunStatus::not_run;
+  std::string message;
+  double simulated = std::numeric_limits<double>::quiet_NaN();  // s
+  double wall = std::numeric_limits<double>::quiet_NaN();       // s
+  Metrics metrics;
+  std::vector<LimitCheck> limits;
+  std::optional<ObjectiveSummary> objective;  // searches
+  std::optional<SearchSummary> search;
+  std::vector<VariableSummary> variables;
+  std::vector<EstimateSummary> estimates;  // fits
+};
+
+/// "completed", "interrupted", "diverged", "not_run".
+std::string status_name(RunStatus status);
+
+/// Status, times, metrics and limits of one run.
+Summary summarise(const Specification& specification, const Trajectory& trajectory, const Metrics& metrics,
+                  const std::vector<LimitCheck>& limits);
+
+/// The document as text, keys in a fixed order, numbers in the shortest form that reads back to the same double; NaN
+/// and infinities become null.
+std::string summary_json(const Summary& summary);
+
+/// Writes summary_json() to a file, whole or not at all. Throws std::runtime_error.
+void write_summary(const Summary& summary, const std::string& path);
+
+}  // namespace stillhook

@@ -1,0 +1,427 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sim/hull/damping.h"
+#include "sim/hull/hydrodynamics.h"
+#include "sim/hull/hydrostatics.h"
+#include "sim/lifting/ballast.h"
+#include "sim/lifting/contact.h"
+#include "sim/lifting/mooring.h"
+#include "sim/lifting/tagline.h"
+#include "sim/lifting/wire.h"
+#include "sim/model.h"
+#include "sim/multibody/equilibrium.h"
+#include "sim/multibody/joint_drive.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kJointGap = 0.05;   // m, apart at the given poses: rounding in a case file, not a mistake
+constexpr double kCalm = -1.0;       // s, before the waves start
+constexpr double kAngleHeld = 1e-7;  // rad
+constexpr double kLengthProbe = 1e-3;  // m
+constexpr int kHoldRounds = 20;
+constexpr double kLoose = 2.0;         // length over distance of a wire that is out of the way
+
+}  // namespace
+
+class ModelBuilder {
+ public:
+  explicit ModelBuilder(const Specification& specification) { model_.specification_ = specification; }
+
+  Model build() {
+    place_bodies();
+    const SeaSpec& sea = spec().sea;
+    const auto active = std::find_if(sea.states.begin(), sea.states.end(),
+                                     [&](const SeaStateSpec& s) { return s.name == sea.active; });
+    model_.waves_ = std::make_shared<const WaveField>(
+        active == sea.states.end() ? WaveField() : build_wave_field(*active, sea.gravity, sea.ramp));
+    join_bodies();
+    choose_lengths();
+    add_elements();
+    if (spec().solver.static_start) {
+      find_equilibrium();
+      refuse_slack_supports();
+    }
+    add_hydrodynamics();
+    start();
+    return std::move(model_);
+  }
+
+ private:
+  const Specification& spec() const { return model_.specification_; }
+  MultibodySystem& system() { return model_.system_; }
+  SystemState& state() { return model_.initial_state_; }
+  const SystemState& state() const { return model_.initial_state_; }
+
+  BodyPoint point(const std::string& body, const Vector3& p_B) const {
+    const int i = model_.body_index(body);
+    return {i, i == kWorld ? p_B : Vector3(p_B - spec().bodies[i].cog)};
+  }
+
+  int drive_or_none(const std::string& name) const { return name.empty() ? -1 : model_.drive_index(name); }
+
+  void place_bodies() {
+    if (spec().bodies.empty()) throw SpecificationError("bodies", "", "a model needs at least one body");
+    for (const BodySpec& b : spec().bodies) {
+      system().bodies.push_back({b.name, b.mass, b.inertia, b.cog});
+      BodyKinematics k;
+      k.R_WB = rotation_from(b.attitude);
+      k.p_WC = b.position + k.R_WB * b.cog;
+      k.w_B = b.angular_velocity;
+      k.v_WC = b.velocity + k.R_WB * k.w_B.cross(b.cog);
+      state().body.push_back(k);
+    }
+    system().gravity = spec().sea.gravity;
+    state().drive.resize(spec().drives.size());
+  }
+
+  void join_bodies() {
+    const Instant now = state().instant();
+    for (const JointSpec& j : spec().joints) {
+      const int parent = model_.body_index(j.parent), child = model_.body_index(j.child);
+      const auto cog = [&](int body) { return body == kWorld ? Vector3(Vector3::Zero()) : spec().bodies[body].cog; };
+      system().joints.push_back(make_joint(j, parent, child, cog(parent), cog(child), now));
+      Joint::Rows rows;
+      system().joints.back().values(now, rows);
+      const double gap = rows.head(system().joints.back().rows()).cwiseAbs().maxCoeff();
+      if (gap > kJointGap)
+        throw SpecificationError("joints." + j.name, "",
+                                 "contradicts the given poses: its point on '" + j.child + "' and its point on '" +
+                                     j.parent + "' are " + std::to_string(gap) + " m apart (at most " +
+                                     std::to_string(kJointGap) + " m is mended)");
+    }
+    system().finish();
+    std::string joint;
+    const double left = assemble_joints(system(), state(), joint);
+    if (left > 1e-9)
+      throw SpecificationError("joints." + joint, "",
+                               "cannot be closed together with the other joints: " + std::to_string(left) +
+                                   " m or rad remain");
+    model_.redundant_joints_ = system().select_independent_rows(state());
+  }
+
+  // Unstretched lengths where the specification leaves them to the initial pose.
+  void choose_lengths() {
+    for (const WireSpec& w : spec().wires) {
+      const double distance = end_distance(w);
+      if (distance < 1e-6)
+        throw SpecificationError("wires." + w.name, "", "its ends coincide at the initial pose");
+      double length = w.unstretched_length > 0.0 ? w.unstretched_length : distance + w.slack;
+      if (length <= 0.0)
+        throw SpecificationError("wires." + w.name, "slack", "leaves no length: the ends are " +
+                                                                 std::to_string(distance) + " m apart");
+      model_.initial_lengths_.push_back(length);
+    }
+  }
+
+  std::unique_ptr<const ForceElement> wire(std::size_t i) const {
+    const WireSpec& w = spec().wires[i];
+    WireOptions o;
+    o.name = w.name;
+    o.from = point(w.from, w.point_from);
+    o.to = point(w.to, w.point_to);
+    o.axial_stiffness = w.axial_stiffness;
+    o.unstretched_length = model_.initial_lengths_[i];
+    o.damping = w.damping > 0.0 ? w.damping
+                                : wire_damping(w.damping_ratio, w.damping_mass, w.axial_stiffness, o.unstretched_length);
+    o.drive = drive_or_none(w.winch);
+    if (!spec().operation.crane.empty()) o.crane = model_.body_index(spec().operation.crane);
+    return std::make_unique<const Wire>(o);
+  }
+
+  void rebuild_wires() {
+    for (std::size_t i = 0; i < spec().wires.size(); ++i) system().elements[first_wire_ + i] = wire(i);
+  }
+
+  std::unique_ptr<const ForceElement> tagline(const TaglineSpec& t) const {
+    TaglineOptions o;
+    o.name = t.name;
+    o.from = point(t.from, t.point_from);
+    o.to = point(t.to, t.point_to);
+    for (const WireSpec& w : spec().wires)
+      if (w.name == t.wire) {
+        o.hoist_upper = point(w.from, w.point_from);
+        o.hoist_lower = point(w.to, w.point_to);
+      }
+    o.kp = t.kp;
+    o.kd = t.kd;
+    o.set_point = t.set_point;
+    o.pretension = t.pretension;
+    o.tension_max = t.tension_max;
+    o.speed_max = t.speed_max;
+    o.time_constant = t.time_constant;
+    o.axial_stiffness = t.axial_stiffness;
+    o.active = t.active;
+    o.active_from_phase = phase_index(t.active_from, "taglines." + t.name);
+    return std::make_unique<const Tagline>(o, state().instant());
+  }
+
+  std::unique_ptr<const ForceElement> mooring(const MooringSpec& m) const {
+    MooringOptions o;
+    o.name = m.name;
+    o.type = m.type == MooringSpec::Type::catenary ? MooringOptions::Type::catenary : MooringOptions::Type::linear;
+    o.fairlead = point(m.body, m.fairlead);
+    o.azimuth = m.azimuth;
+    o.pretension = m.pretension;
+    o.line.length = m.length;
+    o.line.weight = m.weight;
+    o.line.axial_stiffness = m.axial_stiffness;
+    o.line.seabed_friction = m.seabed_friction;
+    o.depth = spec().sea.depth;
+    o.stiffness = m.stiffness;
+    o.anchor_distance = m.anchor_distance;
+    o.tow_drive = drive_or_none(m.tow);
+    if (o.tow_drive >= 0) o.tow_direction = m.tow_direction.normalized();
+    return std::make_unique<const Mooring>(o, state().instant());
+  }
+
+  std::unique_ptr<const ForceElement> contact(const ContactSpec& c) const {
+    ContactOptions o;
+    o.name = c.name;
+    o.body = model_.body_index(c.body);
+    for (const Vector3& p : c.points) o.points.push_back(point(c.body, p).c_B);
+    o.surface = point(c.surface_body, c.surface_centre);
+    o.length = c.surface_length;
+    o.breadth = c.surface_breadth;
+    o.stiffness = c.stiffness;
+    o.damping = c.damping;
+    o.damping_depth = c.damping_depth;
+    o.friction = c.friction;
+    o.active_from_phase = phase_index(c.active_from, "contacts." + c.name);
+    return std::make_unique<const Contact>(o);
+  }
+
+  // Index of the phase an element begins to act with, 0 when none is named.
+  int phase_index(const std::string& name, const std::string& entry) const {
+    if (name.empty()) return 0;
+    const auto& phases = spec().operation.phases;
+    for (std::size_t i = 0; i < phases.size(); ++i)
+      if (phases[i].name == name) return static_cast<int>(i);
+    throw SpecificationError(entry, "active_from", "there is no phase '" + name + "'");
+  }
+
+  void add_elements() {
+    auto& elements = system().elements;
+    elements.clear();
+    for (std::size_t i = 0; i < spec().bodies.size(); ++i) {
+      const BodySpec& b = spec().bodies[i];
+      if (b.hull.shape != HullSpec::Shape::none)
+        elements.push_back(build_hydrostatics(b, static_cast<int>(i), model_.waves_, spec().sea));
+    }
+    first_wire_ = elements.size();
+    for (std::size_t i = 0; i < spec().wires.size(); ++i) elements.push_back(wire(i));
+    for (const TaglineSpec& t : spec().taglines) elements.push_back(tagline(t));
+    for (const MooringSpec& m : spec().moorings) elements.push_back(mooring(m));
+    for (const ContactSpec& c : spec().contacts) elements.push_back(contact(c));
+    for (const BallastSpec& b : spec().ballast) {
+      BallastOptions o;
+      o.name = b.name;
+      o.from = point(b.body, b.from);
+      o.to = point(b.body, b.to);
+      o.mass = b.mass;
+      o.gravity = spec().sea.gravity;
+      o.drive = model_.drive_index(b.drive);
+      elements.push_back(std::make_unique<const Ballast>(o));
+    }
+    for (std::size_t j = 0; j < spec().joints.size(); ++j) {
+      const JointSpec& joint = spec().joints[j];
+      if (joint.stiffness > 0.0 || joint.damping > 0.0 || !joint.drive.empty())
+        elements.push_back(std::make_unique<const JointDrive>(joint.name, system().joints[j], joint.stiffness,
+                                                              joint.damping, joint.rest, drive_or_none(joint.drive)));
+    }
+    system().finish();
+    system().select_independent_rows(state());
+  }
+
+  void settle() {
+    state().t = kCalm;
+    const EquilibriumReport report = solve_equilibrium(system(), state());
+    state().t = 0.0;
+    if (report.converged) return;
+    throw SpecificationError("bodies." + report.worst_body, "",
+                             "no static equilibrium found from the given pose: out of balance by " +
+                                 std::to_string(report.residual) + " of the largest weight after " +
+                                 std::to_string(report.iterations) + " iterations (does it float, hang or stand?)");
+  }
+
+  // Newton's method on the lengths of the wires that hold a joint at its initial coordinate, with the wires of given
+  // slack hanging loose; those get their lengths from the pose that comes out. At zero tension they leave it alone.
+  void find_equilibrium() {
+    std::vector<std::size_t> holding;
+    std::vector<const Joint*> held;
+    for (std::size_t i = 0; i < spec().wires.size(); ++i) {
+      if (by_slack(i)) model_.initial_lengths_[i] *= kLoose;
+      if (spec().wires[i].hold_joint.empty()) continue;
+      holding.push_back(i);
+      held.push_back(&joint_named(spec().wires[i]));
+    }
+    rebuild_wires();
+    settle();
+    hold_joints(holding, held);
+    bool taut = false;
+    for (std::size_t i = 0; i < spec().wires.size(); ++i) {
+      if (!by_slack(i)) continue;
+      const WireSpec& w = spec().wires[i];
+      model_.initial_lengths_[i] = end_distance(w) + w.slack;
+      taut = taut || w.slack < 0.0;
+    }
+    rebuild_wires();
+    if (!taut) return;
+    settle();
+    hold_joints(holding, held);
+  }
+
+  bool by_slack(std::size_t i) const {
+    return spec().wires[i].unstretched_length <= 0.0 && spec().wires[i].hold_joint.empty();
+  }
+
+  double end_distance(const WireSpec& w) const {
+    return (motion_of(point(w.from, w.point_from), state().instant()).p -
+            motion_of(point(w.to, w.point_to), state().instant()).p).norm();
+  }
+
+  void hold_joints(const std::vector<std::size_t>& wires, const std::vector<const Joint*>& joints) {
+    const int n = static_cast<int>(wires.size());
+    const auto miss = [&] {
+      VectorX c(n);
+      for (int i = 0; i < n; ++i) c[i] = joints[i]->coordinate(state().instant());
+      return c;
+    };
+    const auto change_length = [&](int i, double by) {
+      model_.initial_lengths_[wires[i]] += by;
+      rebuild_wires();
+    };
+    for (int round = 0; round < kHoldRounds && n > 0; ++round) {
+      const VectorX f = miss();
+      if (f.cwiseAbs().maxCoeff() < kAngleHeld) return;
+      const SystemState here = state();
+      MatrixX slope(n, n);
+      for (int j = 0; j < n; ++j) {
+        change_length(j, kLengthProbe);
+        settle();
+        slope.col(j) = (miss() - f) / kLengthProbe;
+        change_length(j, -kLengthProbe);
+        state() = here;
+      }
+      VectorX step = -slope.fullPivLu().solve(f);
+      step *= std::min(1.0, 1.0 / std::max(1e-12, step.cwiseAbs().maxCoeff()));
+      for (int j = 0; j < n; ++j) change_length(j, step[j]);
+      settle();
+    }
+    if (n > 0)
+      throw SpecificationError("wires." + spec().wires[wires[0]].name, "hold_joint",
+                               "no unstretched lengths found that hold the joints at their initial angles");
+  }
+
+  const Joint& joint_named(const WireSpec& w) {
+    for (const Joint& j : system().joints)
+      if (j.name == w.hold_joint) return j;
+    throw SpecificationError("wires." + w.name, "hold_joint", "there is no joint '" + w.hold_joint + "'");
+  }
+
+  void refuse_slack_supports() {
+    for (std::size_t i = 0; i < spec().wires.size(); ++i) {
+      const WireSpec& w = spec().wires[i];
+      const bool supports = w.role == WireSpec::Role::luffing || w.role == WireSpec::Role::stay ||
+                            w.role == WireSpec::Role::sling;
+      const auto& element = static_cast<const Wire&>(*system().elements[first_wire_ + i]);
+      if (supports && element.tension(state().instant()) <= 0.0)
+        throw SpecificationError("wires." + w.name, "", "is slack in the initial equilibrium, but it has to hold its body");
+    }
+  }
+
+  // Hydrodynamics come last: the share of critical damping is of the modes about the equilibrium.
+  void add_hydrodynamics() {
+    for (std::size_t i = 0; i < spec().bodies.size(); ++i) {
+      const BodySpec& b = spec().bodies[i];
+      const int body = static_cast<int>(i);
+      const double heading = roll_pitch_yaw(state().body[i].R_WB).yaw;
+      Vector6 critical = Vector6::Zero();
+      if (!b.hydrodynamics.critical_fraction.isZero()) critical = critical_part(body);
+      const Mesh mesh = b.hull.shape == HullSpec::Shape::none ? Mesh{} : build_hull_mesh(b.hull);
+      if (auto element = build_hydrodynamics(b, body, heading, mesh, model_.waves_, spec().sea, critical))
+        system().elements.push_back(std::move(element));
+    }
+    system().finish();
+    system().select_independent_rows(state());
+  }
+
+  // Linear damping that is the wanted share of critical for heave, roll and pitch of everything jointed to the hull,
+  // each mode alone, with the added mass at its own frequency.
+  Vector6 critical_part(int hull) {
+    const BodySpec& body = spec().bodies[hull];
+    Vector6 stiffness = hydrostatic_stiffness(hull).diagonal();
+    Vector6 inertia;
+    inertia << Vector3::Constant(body.mass), body.inertia.diagonal();
+    const Vector3 C = state().body[hull].p_WC;
+    const std::vector<bool> rigid = jointed_to(hull);
+    for (std::size_t i = 0; i < rigid.size(); ++i) {
+      if (!rigid[i] || static_cast<int>(i) == hull) continue;
+      const RigidBody& b = system().bodies[i];
+      const Vector3 r = state().body[i].p_WC - C;
+      const Matrix3 J = state().body[i].R_WB * b.inertia * state().body[i].R_WB.transpose() +
+                        b.mass * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
+      inertia.head<3>().array() += b.mass;
+      inertia.tail<3>() += J.diagonal();
+      stiffness.segment<2>(3).array() -= b.mass * system().gravity * r.z();  // weights above C tip the hull
+    }
+    const auto added_mass = added_mass_of(body);
+    for (int dof = 2; dof < 5; ++dof) {
+      if (body.hydrodynamics.critical_fraction[dof] == 0.0) continue;
+      if (stiffness[dof] <= 0.0)
+        throw SpecificationError("bodies." + body.name, "critical_fraction",
+                                 "the hull is not stable in this degree of freedom, so it has no critical damping");
+      const double frequency = natural_frequency(stiffness[dof], inertia[dof],
+                                                 [&](double w) { return added_mass(w)(dof, dof); });
+      inertia[dof] = stiffness[dof] / (frequency * frequency);
+    }
+    return critical_damping(body.hydrodynamics.critical_fraction, stiffness, inertia);
+  }
+
+  // -dQ/dxi of the hull's pressure alone, about its C, in calm water.
+  Matrix6 hydrostatic_stiffness(int hull) {
+    const int e = model_.element_index(spec().bodies[hull].name + ".hydrostatics");
+    if (e < 0)
+      throw SpecificationError("bodies." + spec().bodies[hull].name, "critical_fraction", "needs a hull");
+    SystemWorkspace work = system().make_workspace();
+    SystemState calm = state();
+    calm.t = kCalm;
+    system().start_elements(calm, work);
+    const Memory m = system().memory(e, calm, work);
+    system().elements[e]->add_forces(calm.instant(), 0.0, m, work.forces);
+    system().elements[e]->add_jacobian(calm.instant(), 0.0, m, work.jacobian);
+    return -work.jacobian.stiffness().block<6, 6>(6 * hull, 6 * hull);
+  }
+
+  std::vector<bool> jointed_to(int body) const {
+    std::vector<bool> rigid(spec().bodies.size(), false);
+    rigid[body] = true;
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const Joint& j : model_.system_.joints) {
+        if (j.on_parent.body == kWorld || rigid[j.on_parent.body] == rigid[j.on_child.body]) continue;
+        rigid[j.on_parent.body] = rigid[j.on_child.body] = grown = true;
+      }
+    }
+    return rigid;
+  }
+
+  void start() {
+    SystemWorkspace work = system().make_workspace();
+    if (spec().solver.static_start) {
+      settle();
+    } else {
+      state().acceleration = VectorX::Zero(system().coordinates());
+      state().lambda = VectorX::Zero(system().constraints());
+      system().start_elements(state(), work);
+    }
+  }
+
+  Model model_;
+  std::size_t first_wire_ = 0;
+};
+
+Model build_model(const Specification& specification) { return ModelBuilder(specification).build(); }
+
+}  // namespace stillhook

@@ -1,0 +1,108 @@
+// Hydrodynamic coefficients of one hull, or of several that feel each other, and what every set must satisfy.
+//
+//   F_radiation(t) = -A_inf a(t) - int_0^inf K(s) V(t - s) ds                                  (Cummins 1962)
+//   B(w) = int_0^inf K(s) cos(w s) ds      A(w) = A_inf - (1/w) int_0^inf K(s) sin(w s) ds     (Ogilvie 1964)
+//   F_excitation(t) = Re[ X(w, b) a exp(i th) ],   th = k (x cos b + y sin b) - w t + e at the hull's reference point
+//
+// V holds the six velocities of each hull's reference point Bo in its heading frame H: surge, sway, heave (m/s), roll,
+// pitch, yaw (rad/s). H has its origin in Bo; its axes are those of the world turned by the hull's mean yaw. Forces
+// (N) and moments about Bo (N m) are in H too. Modes are numbered 0..5 here and 1..6 in files; those of the second
+// hull follow as 6..11. Headings b are directions the waves travel towards, relative to H's x axis. The phase of X is
+// a lag: the force peaks arg(X)/w after the crest has passed Bo.
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "sim/spatial/pose.h"
+
+namespace stillhook {
+
+using Complex = std::complex<double>;
+
+/// One K_ij(t) on the uniform grid t = m * interval; linear between samples, zero after the last.
+struct RetardationKernel {
+  int i = 0, j = 0;
+  std::vector<double> value;  // N per (m/s or rad/s) and per s; moments N m
+};
+
+/// All non-zero K_ij(t). Both (i,j) and (j,i) are listed.
+struct RetardationFunctions {
+  double interval = 0.0;  // s
+  std::vector<RetardationKernel> kernels;
+
+  bool empty() const { return kernels.empty(); }
+  double duration() const;  // s, of the longest kernel
+};
+
+/// Added mass and radiation damping at one frequency.
+struct FrequencyCoefficients {
+  double frequency = 0.0;  // rad/s
+  MatrixX A, B;            // modes x modes; kg, kg m, kg m2 and the same per s
+};
+
+/// Total first-order excitation (Froude-Krylov plus diffraction) per unit wave amplitude, N/m and N m/m.
+struct ExcitationTable {
+  std::vector<double> frequencies;  // rad/s, ascending, > 0
+  std::vector<double> headings;     // rad, ascending in [0, 2 pi)
+  int modes = 6;
+  std::vector<Complex> value;  // [frequency][heading][mode]
+
+  bool empty() const { return value.empty(); }
+  Complex& at(int f, int h, int mode) { return value[(f * headings.size() + h) * modes + mode]; }
+  const Complex& at(int f, int h, int mode) const { return value[(f * headings.size() + h) * modes + mode]; }
+};
+
+/// A coefficient set with everything that must be known to use it.
+struct HydrodynamicCoefficients {
+  std::string source;          // where it was read, or what computed it
+  std::string description;     // origin of the numbers, for reports
+  double density = 0.0;        // kg/m3, of the water it holds for
+  double gravity = 0.0;        // m/s2
+  double length = 0.0;         // m, the hull's length scale: rotations are compared with translations through it
+  double waterline = 0.0;      // m, height of the calm water plane above Bo
+  std::vector<double> volume;  // m3, displaced volume of each hull
+  MatrixX A_inf;               // modes x modes
+  RetardationFunctions retardation;
+  std::vector<FrequencyCoefficients> frequency;  // ascending; may be empty
+  ExcitationTable excitation;                    // may be empty
+
+  int hulls() const { return static_cast<int>(volume.size()); }
+  int modes() const { return 6 * hulls(); }
+};
+
+/// B(w) from K, exact for the piecewise linear kernels. modes x modes.
+MatrixX damping_from_kernels(const RetardationFunctions& K, int modes, double frequency);
+
+/// A(w) from A_inf and K, exact for the piecewise linear kernels; w > 0.
+MatrixX added_mass_from_kernels(const MatrixX& A_inf, const RetardationFunctions& K, double frequency);
+
+/// Each kernel cut at the first time T after which int_T |K| dt <= tolerance * int_0 |K| dt; what is lost of int K dt
+/// is spread smoothly over the rest, so that B(0), which is zero for a hull, stays as it is: a cut alone leaves a
+/// negative damping of slow drift. w A(w) and B(w) change by no more than 2 tolerance int |K| dt, the force by no more
+/// than that times max |V_j|.
+RetardationFunctions truncated(const RetardationFunctions& K, double tolerance);
+
+/// The matrix of a hull's A or B about another point: from Bo to the point at c (m, in H from Bo).
+Matrix6 about_point(const Matrix6& about_origin, const Vector3& c);
+
+/// A property every physical set has, measured on this one.
+struct SelfCheck {
+  std::string name;    // "symmetry of A_inf"
+  std::string detail;  // where the worst value is
+  double value = 0.0;  // the worst deviation found, dimensionless
+  double limit = 0.0;  // a set with value > limit is refused
+  bool passed() const { return value <= limit; }
+};
+
+/// Finite numbers (else nothing more is checked); symmetry and positive definiteness of A_inf; symmetry and B(w) >= 0
+/// of the tables; B(w) >= 0 of the kernels; Kramers-Kronig (the kernels against the tables); kernels that have died out
+/// at their end. Deviations of pair (i,j) are relative to sqrt(X_ii X_jj), which needs no units; checks whose data are
+/// missing are left out.
+std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& coefficients);
+
+/// Throws SpecificationError(coefficients.source) with the first failed check.
+void require_self_checks(const HydrodynamicCoefficients& coefficients);
+
+}  // namespace stillhook

@@ -1,0 +1,138 @@
+#include "sim/hull/diffraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+namespace stillhook {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// Weight of an entry at distance x (rad) in the trigonometric interpolation through n entries evenly around a circle.
+double circle_weight(double x, int n) {
+  const double s = std::sin(0.5 * x);
+  if (std::abs(s) < 1e-9) return 1.0;
+  const double numerator = std::sin(0.5 * n * x) / n;
+  return n % 2 == 0 ? numerator * std::cos(0.5 * x) / s : numerator / s;
+}
+
+}  // namespace
+
+DiffractionTable::DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
+                                   std::span<const double> headings, double length)
+    : headings_(total.headings), length_(length), gravity_(froude_krylov[0].gravity()) {
+  const int directions = static_cast<int>(headings_.size());
+  for (int h = 0; h < directions; ++h)
+    if (std::abs(headings_[h] - headings_[0] - h * kTurn / directions) > 1e-6)
+      throw std::invalid_argument("the headings of an excitation table must be evenly spaced around the circle");
+  frequencies_.push_back(0.0);
+  value_.push_back(Eigen::MatrixXcd::Zero(directions, total.modes));
+  for (int f = 0; f < static_cast<int>(total.frequencies.size()); ++f) {
+    frequencies_.push_back(total.frequencies[f]);
+    Eigen::MatrixXcd X(directions, total.modes);
+    for (int h = 0; h < directions; ++h)
+      for (int hull = 0; hull < static_cast<int>(froude_krylov.size()); ++hull) {
+        const double own_heading = headings_[h] + headings[0] - headings[hull];
+        const auto incident = froude_krylov[hull].excitation(total.frequencies[f], own_heading);
+        for (int i = 0; i < 6; ++i) X(h, 6 * hull + i) = total.at(f, h, 6 * hull + i) - incident(i);
+      }
+    value_.push_back(X);
+  }
+}
+
+bool DiffractionTable::resolves(double frequency, double heading) const {
+  // A frequency or heading given exactly on an entry may miss it by a rounding error.
+  if (frequency > highest_frequency() * (1.0 + 1e-9)) return false;
+  const int n = static_cast<int>(headings_.size());
+  const double u = (heading - headings_[0]) * n / kTurn;
+  if (std::abs(u - std::round(u)) < 1e-6) return true;
+  return frequency * frequency / gravity_ * 0.5 * length_ <= 0.5 * n;
+}
+
+Eigen::VectorXcd DiffractionTable::at_heading(int f, double heading) const {
+  const int n = static_cast<int>(headings_.size());
+  Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(value_[f].cols());
+  for (int h = 0; h < n; ++h) sum += circle_weight(heading - headings_[h], n) * value_[f].row(h).transpose();
+  return sum;
+}
+
+Eigen::VectorXcd DiffractionTable::at(double frequency, double heading) const {
+  const int last = static_cast<int>(frequencies_.size()) - 1;
+  const auto above = std::upper_bound(frequencies_.begin(), frequencies_.end(), frequency);
+  const int i = std::clamp(static_cast<int>(above - frequencies_.begin()) - 1, 0, last - 1);
+  const Eigen::VectorXcd y0 = at_heading(i, heading), y1 = at_heading(i + 1, heading);
+  const double h = frequencies_[i + 1] - frequencies_[i];
+  const Eigen::VectorXcd rise = (y1 - y0) / h;
+  // Slopes of the parabola through three neighbours; X_D ~ w^2 makes the one at w = 0 zero.
+  Eigen::VectorXcd slope0 = rise, slope1 = rise;
+  if (i == 0) {
+    slope0.setZero();
+  } else {
+    const double before = frequencies_[i] - frequencies_[i - 1];
+    slope0 = ((y0 - at_heading(i - 1, heading)) / before * h + rise * before) / (h + before);
+  }
+  if (i + 1 < last) {
+    const double after = frequencies_[i + 2] - frequencies_[i + 1];
+    slope1 = ((at_heading(i + 2, heading) - y1) / after * h + rise * after) / (h + after);
+  } else {
+    slope1 = 2.0 * rise - slope0;
+  }
+  const double t = (frequency - frequencies_[i]) / h, s = 1.0 - t;
+  return (1.0 + 2.0 * t) * s * s * y0 + t * s * s * h * slope0 + t * t * (3.0 - 2.0 * t) * y1 - t * t * s * h * slope1;
+}
+
+Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const DiffractionTable& table,
+                         std::span<const double> headings, double negligible_energy, const std::string& entry)
+    : waves_(std::move(waves)), hulls_(headings.size()) {
+  double energy = 0.0, beyond = 0.0;
+  bool above = false;
+  for (const WaveComponent& wave : waves_->components()) {
+    const double a2 = wave.amplitude * wave.amplitude;
+    energy += a2;
+    const double heading = std::atan2(wave.sin_heading, wave.cos_heading) - headings[0];
+    if (!table.resolves(wave.frequency, heading)) {
+      beyond += a2;
+      above |= wave.frequency > table.highest_frequency();
+      continue;
+    }
+    const Eigen::VectorXcd X = wave.amplitude * table.at(std::min(wave.frequency, table.highest_frequency()), heading);
+    for (std::size_t hull = 0; hull < hulls_.size(); ++hull) {
+      const Vector6 real = X.segment<6>(6 * hull).real(), imag = X.segment<6>(6 * hull).imag();
+      hulls_[hull].push_back({real, imag, wave.wavenumber * wave.cos_heading, wave.wavenumber * wave.sin_heading,
+                              wave.frequency, wave.phase});
+    }
+  }
+  if (beyond > negligible_energy * energy) {
+    std::ostringstream sentence;
+    sentence.precision(3);
+    sentence << 100.0 * beyond / energy << " % of the sea's energy lies ";
+    if (above)
+      sentence << "above " << table.highest_frequency() << " rad/s, where the excitation of the coefficient file ends";
+    else
+      sentence << "in short waves between the headings of the coefficient file, which are too far apart for them";
+    sentence << "; at most " << 100.0 * negligible_energy << " % may";
+    throw SpecificationError(entry, "coefficient_file", sentence.str());
+  }
+}
+
+void Diffraction::evaluate(int hull, double t, double x, double y, Vector6& F, Eigen::Matrix<double, 6, 2>& dF) const {
+  F.setZero();
+  dF.setZero();
+  const double ramp = waves_->ramp(t);
+  if (ramp == 0.0) return;
+  for (const Component& wave : hulls_[hull]) {
+    const double angle = wave.kx * x + wave.ky * y - wave.frequency * t + wave.phase;
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Vector6 quarter_turn = -s * wave.real - c * wave.imag;
+    F += c * wave.real - s * wave.imag;
+    dF.col(0) += wave.kx * quarter_turn;
+    dF.col(1) += wave.ky * quarter_turn;
+  }
+  F *= ramp;
+  dF *= ramp;
+}
+
+}  // namespace stillhook

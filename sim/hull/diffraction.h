@@ -1,0 +1,71 @@
+// Diffraction forces of first order at the hull's actual position.
+//
+//   F(t) = r(t) Re sum_j a_j X_D(w_j, b_j - psi) exp(i th_j),   th_j = k_j (x cos b_j + y sin b_j) - w_j t + e_j
+//   X_D = X - X_FK
+//
+// (x, y): the hull's reference point now; psi its mean heading; r(t), a_j, k_j, b_j, e_j of wave_field.h. X is the
+// total excitation of the coefficient set. X_FK, the linear Froude-Krylov force on the mean wetted surface, is taken
+// off because the pressure integral of the hydrostatics has it already. The headings of a set of several hulls are
+// relative to the first hull; the rows of each hull refer to the crest passing that hull's own reference point.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/hull/coefficients.h"
+#include "sim/hull/linear_froude_krylov.h"
+#include "sim/sea/wave_field.h"
+
+namespace stillhook {
+
+/// X_D between the entries of a table: cubic in frequency (three-point slopes), trigonometric in heading. The table is
+/// continued to w = 0, where the hull does not disturb the wave, X_D = 0, and X_D ~ w^2.
+///
+/// With heading the force of a wave turns in phase like exp(i k (length/2) cos b), which n headings resolve while
+/// k length/2 <= n/2; shorter waves can be looked up at the table's own headings only.
+class DiffractionTable {
+ public:
+  /// `froude_krylov` and `headings` (rad) of each hull of the set, in order; `length`: of the longest hull, m. Throws
+  /// std::invalid_argument unless the headings are evenly spaced around the circle.
+  DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
+                   std::span<const double> headings, double length);
+
+  double highest_frequency() const { return frequencies_.back(); }
+  /// False above the highest frequency and between headings that are too far apart for the wave length.
+  bool resolves(double frequency, double heading) const;
+  /// All modes; frequency in [0, highest_frequency()], heading in rad relative to the first hull.
+  Eigen::VectorXcd at(double frequency, double heading) const;
+
+ private:
+  Eigen::VectorXcd at_heading(int f, double heading) const;
+
+  std::vector<double> frequencies_;      // rad/s, the first is 0
+  std::vector<double> headings_;         // rad
+  std::vector<Eigen::MatrixXcd> value_;  // [frequency] headings x modes
+  double length_, gravity_;
+};
+
+class Diffraction {
+ public:
+  /// `headings`: mean heading of each hull, rad. Components that the table does not resolve are left out when they hold
+  /// at most `negligible_energy` of the sea's energy (sum of a^2) together; otherwise throws SpecificationError(entry).
+  Diffraction(std::shared_ptr<const WaveField> waves, const DiffractionTable& table, std::span<const double> headings,
+              double negligible_energy, const std::string& entry);
+
+  bool calm() const { return waves_->calm(); }
+
+  /// Force on a hull with its reference point at (x, y) in W, in its heading frame (N, N m), and its derivatives with
+  /// respect to x and y in W.
+  void evaluate(int hull, double t, double x, double y, Vector6& F, Eigen::Matrix<double, 6, 2>& dF) const;
+
+ private:
+  struct Component {
+    Vector6 real, imag;  // a X_D
+    double kx, ky, frequency, phase;
+  };
+  std::shared_ptr<const WaveField> waves_;
+  std::vector<std::vector<Component>> hulls_;
+};
+
+}  // namespace stillhook

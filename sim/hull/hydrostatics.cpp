@@ -1,0 +1,418 @@
+#include "sim/hull/hydrostatics.h"
+
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/hull/clipped_panel.h"
+#include "sim/hull/mesh_file.h"
+#include "sim/hull/panel_strips.h"
+
+namespace stillhook {
+
+namespace {
+
+using FroudeKrylov = HullSpec::FroudeKrylov;
+using Dual = ceres::Jet<double, 6>;  // by the depths and the heads of a triangle's corners
+
+// int h n dS and int h r n^T dS over the wet surface, in B about C: every force and moment follows from these.
+struct HeadIntegral {
+  Vector3 n = Vector3::Zero();   // m3
+  Matrix3 rn = Matrix3::Zero();  // m4
+
+  // int h r x n dS.
+  Vector3 r_cross_n() const { return {rn(1, 2) - rn(2, 1), rn(2, 0) - rn(0, 2), rn(0, 1) - rn(1, 0)}; }
+};
+
+// Panels that the surface cuts, four at a time, one to a lane. Each begins with the corner that is alone: the only wet
+// one, or the only dry one.
+constexpr int kLanes = 4;
+using Lanes = Eigen::Array<double, kLanes, 1>;
+
+class CutPanels {
+ public:
+  bool add(const Panel& panel, int lone) {
+    for (int c = 0; c < 3; ++c) corner[c][count] = panel.corner[(lone + c) % 3];
+    for (int axis = 0; axis < 3; ++axis) S[axis][count] = panel.S_B[axis];
+    return ++count == kLanes;
+  }
+  /// Lanes left over repeat the first one without its area.
+  void fill() {
+    for (; count < kLanes; ++count)
+      for (int i = 0; i < 3; ++i) {
+        corner[i][count] = corner[i][0];
+        S[i][count] = 0.0;
+      }
+  }
+  Lanes gathered(const double* values, int c) const {
+    return {values[corner[c][0]], values[corner[c][1]], values[corner[c][2]], values[corner[c][3]]};
+  }
+  int count = 0;
+  int corner[3][kLanes];
+  Lanes S[3];  // m2
+};
+
+// A HeadIntegral for each lane.
+struct LaneIntegrals {
+  Lanes n[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+  Lanes rn[3][3] = {{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()},
+                    {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()},
+                    {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()}};
+};
+
+// The corner that differs from the other two, by the bits of clipped_panel::wet_corners.
+constexpr int kLoneCorner[8] = {0, 0, 1, 2, 2, 1, 0, 0};
+
+// No crest is higher and no trough deeper.
+double largest_elevation(const WaveField& waves) {
+  double sum = 0.0;
+  for (const WaveComponent& c : waves.components()) sum += std::abs(c.amplitude);
+  return sum;
+}
+
+class Hydrostatics final : public ForceElement {
+ public:
+  Hydrostatics(const BodySpec& body, int index, const Mesh& mesh, std::shared_ptr<const WaveField> waves,
+               const SeaSpec& sea)
+      : ForceElement(body.name + ".hydrostatics"),
+        body_name_(body.name),
+        body_(index),
+        model_(body.hull.froude_krylov),
+        weight_(sea.density * sea.gravity),
+        waves_(std::move(waves)) {
+    for (const Vector3& v : mesh.vertices) r_.push_back(v - body.cog);
+    for (const auto& t : mesh.triangles) panels_.push_back({{t[0], t[1], t[2]}, area_vector(mesh, t)});
+    sort_upwards(panels_, r_);
+    strips_ = strips_of(panels_, r_);
+    weights_ = head_weights(panels_, r_);
+    coordinates_.resize(static_cast<Eigen::Index>(r_.size()), 3);
+    for (std::size_t i = 0; i < r_.size(); ++i) coordinates_.row(static_cast<Eigen::Index>(i)) = r_[i].transpose();
+    largest_elevation_ = largest_elevation(*waves_);
+  }
+
+  int scratch_size() const override { return 22 * static_cast<int>(r_.size()); }
+
+  void add_forces(const Instant& now, double, Memory m, ForceSum& out) const override {
+    Samples s = reachable(now, m);
+    sample(now, model_, false, s);
+    const Load load = load_of(integrate(s, now), now.body[body_].R_WB);
+    out.add(body_, now.body[body_].R_WB * load.F_B, load.M_B);
+  }
+
+  void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
+  double potential_energy(const Instant& now, Memory m) const override;
+
+  std::vector<Channel> channels() const override {
+    return {{body_name_ + ".buoyancy", "N", "vertical force of the water on the hull (hydrostatic and Froude-Krylov)"},
+            {body_name_ + ".submerged_volume", "m3", "volume of the hull below the wave profile"}};
+  }
+
+  void measure(const Instant& now, Memory m, std::span<double> out) const override {
+    const Matrix3& R = now.body[body_].R_WB;
+    Samples s = reachable(now, m);
+    sample(now, model_, false, s);
+    HeadIntegral I = integrate(s, now);
+    out[0] = R.row(2).dot(load_of(I, R).F_B);
+    if (model_ == FroudeKrylov::pressure) {
+      std::ranges::transform(s.depth, s.head.begin(), [](double d) { return std::max(d, 0.0); });
+      I = integrate(s, now);
+    }
+    out[1] = -R.row(2).dot(I.n);
+  }
+
+ private:
+  // Views into scratch, one value a vertex; the last strips and their vertices are left out where they are dry.
+  struct Samples {
+    Samples(Memory m, int strip_count, std::size_t n) : strips(strip_count) {
+      std::span<double>* all[] = {&x, &y, &z, &depth, &depth_x, &depth_y, &head, &head_x, &head_y, &head_z};
+      for (std::size_t i = 0; i < std::size(all); ++i) *all[i] = m.scratch.subspan(i * n, n);
+      sensitivity = m.scratch.subspan(std::size(all) * n, 12 * n);
+    }
+    int strips;
+    std::span<double> x, y, z;                       // m, in W
+    std::span<double> depth, depth_x, depth_y;       // m, zeta - z; its derivative by z is -1
+    std::span<double> head, head_x, head_y, head_z;  // the head is zero where the depth is negative
+    std::span<double> sensitivity;                   // of (F_B, M_B)/(-rho g) to depth and head: 2 x 6 a vertex
+  };
+  struct Load {
+    Vector3 F_B, M_B;  // N in B, N m about C in B
+  };
+
+  Samples reachable(const Instant& now, Memory m) const;
+  std::span<const Panel> panels(const Samples& s) const {
+    return {panels_.data(), static_cast<std::size_t>(s.strips > 0 ? strips_[s.strips - 1].end_panel : 0)};
+  }
+  void sample(const Instant& now, FroudeKrylov model, bool gradients, Samples& s) const;
+  HeadIntegral integrate(const Samples& s, const Instant& now) const;
+  void integrate_cut_panels(const Samples& s, bool tips, CutPanels& cut, LaneIntegrals& I) const;
+  Load load_of(const HeadIntegral& I, const Matrix3& R_WB) const;
+  void differentiate_panels(const Samples& s, const Vector3& k_B) const;
+  void differentiate_wet_panel(const Samples& s, const Panel& panel, const Vector3& S) const;
+  void differentiate_cut_panel(const Samples& s, const Panel& panel, const Vector3& S) const;
+
+  // Area vector that the pressure acts on: the whole of it, or its vertical part.
+  Vector3 effective(const Vector3& S_B, const Vector3& k_B) const {
+    return model_ == FroudeKrylov::pressure ? S_B : Vector3(S_B.dot(k_B) * k_B);
+  }
+
+  std::string body_name_;
+  int body_;
+  FroudeKrylov model_;
+  double weight_;  // N/m3, rho g
+  std::shared_ptr<const WaveField> waves_;
+  std::vector<Vector3> r_;  // m, vertices relative to C, in B
+  std::vector<Panel> panels_;
+  std::vector<PanelStrip> strips_;
+  MatrixX weights_;                                       // see head_weights
+  Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates_;  // r_, an axis a column
+  double largest_elevation_ = 0.0;                        // m
+};
+
+Hydrostatics::Samples Hydrostatics::reachable(const Instant& now, Memory m) const {
+  const Vector3 up = now.body[body_].R_WB.row(2);
+  const double z = now.body[body_].p_WC.z();
+  int strips = static_cast<int>(strips_.size());
+  for (; strips > 0; --strips) {
+    const PanelStrip& s = strips_[strips - 1];
+    if (z + up.dot(s.centre) - up.cwiseAbs().dot(s.half) <= largest_elevation_) break;
+  }
+  return {m, strips, static_cast<std::size_t>(strips > 0 ? strips_[strips - 1].vertices : 0)};
+}
+
+void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Samples& s) const {
+  const Matrix3& R = now.body[body_].R_WB;
+  const Vector3& p = now.body[body_].p_WC;
+  const std::size_t n = s.depth.size();
+  const auto vertices = coordinates_.topRows(static_cast<Eigen::Index>(n));
+  const std::span<double> axes[] = {s.x, s.y, s.z};
+  for (int i = 0; i < 3; ++i)
+    VectorX::Map(axes[i].data(), static_cast<Eigen::Index>(n)).array() = p[i] + R(i, 0) * vertices.col(0).array() +
+                                                                         R(i, 1) * vertices.col(1).array() +
+                                                                         R(i, 2) * vertices.col(2).array();
+  WaveSamples wanted{s.depth, s.depth_x, s.depth_y, s.head, s.head_x, s.head_y, s.head_z};
+  if (model == FroudeKrylov::volume) wanted.head = {};
+  waves_->sample(now.t, s.x, s.y, s.z, gradients, wanted);
+  for (std::size_t i = 0; i < n; ++i) s.depth[i] -= s.z[i];
+  if (model == FroudeKrylov::pressure) {
+    for (std::size_t i = 0; i < n; ++i) s.head[i] = s.depth[i] > 0.0 ? s.head[i] : 0.0;
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) s.head[i] = std::max(s.depth[i], 0.0);
+  if (!gradients) return;
+  std::ranges::copy(s.depth_x, s.head_x.begin());
+  std::ranges::copy(s.depth_y, s.head_y.begin());
+  std::ranges::fill(s.head_z, -1.0);
+}
+
+// What cut panels have more than the linear sum gives them.
+void Hydrostatics::integrate_cut_panels(const Samples& s, bool tips, CutPanels& cut, LaneIntegrals& I) const {
+  if (cut.count == 0) return;
+  cut.fill();
+  Lanes d[3], h[3], m[3], moment[3];
+  for (int c = 0; c < 3; ++c) {
+    d[c] = cut.gathered(s.depth.data(), c);
+    h[c] = cut.gathered(s.head.data(), c);
+    m[c].setZero();
+  }
+  if (tips)
+    clipped_panel::add_tip(d, h, 0, 1, 2, m);
+  else
+    clipped_panel::add_quadrilateral(d, h, 1, 2, 0, m);
+  const Lanes sum = h[0] + h[1] + h[2];
+  for (int c = 0; c < 3; ++c) m[c] -= (sum + h[c]) / 12.0;
+  const Lanes total = m[0] + m[1] + m[2];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double* r = coordinates_.col(axis).data();
+    moment[axis] = m[0] * cut.gathered(r, 0) + m[1] * cut.gathered(r, 1) + m[2] * cut.gathered(r, 2);
+  }
+  for (int j = 0; j < 3; ++j) {
+    I.n[j] += total * cut.S[j];
+    for (int i = 0; i < 3; ++i) I.rn[i][j] += moment[i] * cut.S[j];
+  }
+  cut.count = 0;
+}
+
+HeadIntegral Hydrostatics::integrate(const Samples& s, const Instant& now) const {
+  HeadIntegral I;
+  if (s.strips == 0) return I;
+  const Eigen::Index n = static_cast<Eigen::Index>(s.head.size());
+  Eigen::Matrix<double, 12, 1> sums;
+  sums.noalias() = weights_.topRows(n).transpose() * VectorX::Map(s.head.data(), n);
+  I.n = sums.head<3>();
+  I.rn = Eigen::Map<const Matrix3>(sums.data() + 3);
+  const Vector3 up = now.body[body_].R_WB.row(2);
+  const double z = now.body[body_].p_WC.z();
+  CutPanels tips, quadrilaterals;
+  LaneIntegrals cut;
+  for (int i = 0; i < s.strips; ++i) {
+    const PanelStrip& strip = strips_[i];
+    const double middle = z + up.dot(strip.centre), half = up.cwiseAbs().dot(strip.half);
+    if (middle + half < -largest_elevation_ || middle - half > largest_elevation_) continue;
+    for (int k = strip.first_panel; k < strip.end_panel; ++k) {
+      const Panel& panel = panels_[k];
+      const double d[3] = {s.depth[panel.corner[0]], s.depth[panel.corner[1]], s.depth[panel.corner[2]]};
+      const int wet = clipped_panel::wet_corners(d), lone = kLoneCorner[wet];
+      if (wet == 0 || wet == 7) continue;
+      const bool tip = wet == 1 || wet == 2 || wet == 4;
+      if ((tip ? tips : quadrilaterals).add(panel, lone))
+        integrate_cut_panels(s, tip, tip ? tips : quadrilaterals, cut);
+    }
+  }
+  integrate_cut_panels(s, true, tips, cut);
+  integrate_cut_panels(s, false, quadrilaterals, cut);
+  for (int j = 0; j < 3; ++j) {
+    I.n[j] += cut.n[j].sum();
+    for (int i = 0; i < 3; ++i) I.rn(i, j) += cut.rn[i][j].sum();
+  }
+  return I;
+}
+
+Hydrostatics::Load Hydrostatics::load_of(const HeadIntegral& I, const Matrix3& R_WB) const {
+  if (model_ == FroudeKrylov::pressure) return {-weight_ * I.n, -weight_ * I.r_cross_n()};
+  const Vector3 k = R_WB.row(2);
+  return {-weight_ * k.dot(I.n) * k, -weight_ * (I.rn * k).cross(k)};
+}
+
+// Derivatives of sum S m_i and sum (m_i r_i) x S by the depth and head of every vertex, S held.
+void Hydrostatics::differentiate_panels(const Samples& s, const Vector3& k_B) const {
+  std::ranges::fill(s.sensitivity, 0.0);
+  for (const Panel& panel : panels(s)) {
+    double d[3];
+    for (int i = 0; i < 3; ++i) d[i] = s.depth[panel.corner[i]];
+    const int wet = clipped_panel::wet_corners(d);
+    if (wet == 0) continue;
+    const Vector3 S = effective(panel.S_B, k_B);
+    if (wet == 7)
+      differentiate_wet_panel(s, panel, S);
+    else
+      differentiate_cut_panel(s, panel, S);
+  }
+}
+
+// dm_i/dh_j is 1/12, and 1/6 for i = j; the depths do not matter.
+void Hydrostatics::differentiate_wet_panel(const Samples& s, const Panel& panel, const Vector3& S) const {
+  const Vector3 sum = r_[panel.corner[0]] + r_[panel.corner[1]] + r_[panel.corner[2]];
+  for (const int v : panel.corner) {
+    Eigen::Map<Vector6> to(&s.sensitivity[12 * v + 6]);
+    to.head<3>() += S / 3.0;
+    to.tail<3>() += ((sum + r_[v]) / 12.0).cross(S);
+  }
+}
+
+void Hydrostatics::differentiate_cut_panel(const Samples& s, const Panel& panel, const Vector3& S) const {
+  Dual depth[3], head[3], m[3];
+  for (int i = 0; i < 3; ++i) {
+    depth[i] = Dual(s.depth[panel.corner[i]], i);
+    head[i] = Dual(s.head[panel.corner[i]], 3 + i);
+  }
+  const double d[3] = {depth[0].a, depth[1].a, depth[2].a};
+  clipped_panel::moments(clipped_panel::wet_corners(d), depth, head, m);
+  for (int j = 0; j < 6; ++j) {
+    Vector3 q = Vector3::Zero();
+    for (int i = 0; i < 3; ++i) q += m[i].v[j] * r_[panel.corner[i]];
+    Eigen::Map<Vector6> to(&s.sensitivity[12 * panel.corner[j % 3] + (j < 3 ? 0 : 6)]);
+    to.head<3>() += (m[0].v[j] + m[1].v[j] + m[2].v[j]) * S;
+    to.tail<3>() += q.cross(S);
+  }
+}
+
+void Hydrostatics::add_jacobian(const Instant& now, double, Memory m, JacobianSum& out) const {
+  const Matrix3& R = now.body[body_].R_WB;
+  const Vector3 k = R.row(2);
+  Samples s = reachable(now, m);
+  sample(now, model_, true, s);
+  differentiate_panels(s, k);
+
+  // Chain to the pose: d(value at a vertex) = g_W . dp + (r x g_B) . dtheta.
+  Matrix6 K = Matrix6::Zero();
+  for (std::size_t i = 0; i < s.depth.size(); ++i) {
+    const Eigen::Map<const Vector6> by_depth(&s.sensitivity[12 * i]), by_head(&s.sensitivity[12 * i + 6]);
+    const auto add = [&](const Vector6& by, const Vector3& g_W) {
+      Vector6 row;
+      row << g_W, r_[i].cross(R.transpose() * g_W);
+      K.noalias() += by * row.transpose();
+    };
+    if (!by_head.isZero(0.0)) add(by_head, Vector3(s.head_x[i], s.head_y[i], s.head_z[i]));
+    if (!by_depth.isZero(0.0)) add(by_depth, Vector3(s.depth_x[i], s.depth_y[i], -1.0));
+  }
+
+  const HeadIntegral I = integrate(s, now);
+  if (model_ == FroudeKrylov::volume) {
+    // The vertical turns in B as well: dk = k x dtheta, and S_eff = (S . k) k.
+    const Matrix3 dk = cross_matrix(k);
+    K.topRightCorner<3, 3>() += (k * I.n.transpose() + I.n.dot(k) * Matrix3::Identity()) * dk;
+    K.bottomRightCorner<3, 3>() += (cross_matrix(I.rn * k) - cross_matrix(k) * I.rn) * dk;
+  }
+  K *= -weight_;
+  // F_W = R F_B
+  K.topRows<3>() = (R * K.topRows<3>()).eval();
+  K.topRightCorner<3, 3>() -= R * cross_matrix(load_of(I, R).F_B);
+  out.add_stiffness(body_, body_, K);
+}
+
+double Hydrostatics::potential_energy(const Instant& now, Memory m) const {
+  // int d dV = -1/2 int d^2 n_z dS, and d^2 integrates to sum d_i m_i because d is linear.
+  Samples s = reachable(now, m);
+  sample(now, FroudeKrylov::volume, false, s);
+  const Vector3 k = now.body[body_].R_WB.row(2);
+  double moment = 0.0;
+  for (const Panel& panel : panels(s)) {
+    double d[3], mi[3];
+    for (int i = 0; i < 3; ++i) d[i] = s.depth[panel.corner[i]];
+    const int wet = clipped_panel::wet_corners(d);
+    if (wet == 0) continue;
+    clipped_panel::moments(wet, d, d, mi);
+    moment -= 0.5 * k.dot(panel.S_B) * (d[0] * mi[0] + d[1] * mi[1] + d[2] * mi[2]);
+  }
+  return weight_ * moment;
+}
+
+// The wave that carries the energy must be seen by the panels; the tail of a spectrum never is.
+void check_resolution(const BodySpec& body, const Mesh& mesh, const WaveField& waves) {
+  double energy = 0.0, moment = 0.0;
+  for (const WaveComponent& c : waves.components()) {
+    energy += c.amplitude * c.amplitude;
+    moment += c.amplitude * c.amplitude * c.wavenumber;
+  }
+  if (energy == 0.0) return;
+  const double length = 2.0 * std::numbers::pi * energy / moment;
+  const double panel = properties_of(mesh).longest_edge / std::numbers::sqrt2;
+  if (length < 5.0 * panel)
+    throw SpecificationError("bodies." + body.name, "hull.panel_length",
+                             "panels of " + std::to_string(panel) + " m do not resolve waves of " +
+                                 std::to_string(length) + " m; at most " + std::to_string(length / 5.0) +
+                                 " m is needed");
+}
+
+}  // namespace
+
+Mesh build_hull_mesh(const HullSpec& hull) {
+  if (hull.shape == HullSpec::Shape::none) return {};
+  if (hull.panel_length < 0.0 || !std::isfinite(hull.panel_length)) throw MeshError("the panel length must be > 0 m");
+  if (hull.shape == HullSpec::Shape::box) {
+    const Vector3& s = hull.size;
+    const double area = 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
+    return box_mesh(s, hull.centre, hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(area));
+  }
+  const Mesh mesh = read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin});
+  const double panel = hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(properties_of(mesh).area);
+  return refined_mesh(mesh, panel * std::numbers::sqrt2);
+}
+
+std::unique_ptr<ForceElement> build_hydrostatics(const BodySpec& body, int index,
+                                                 std::shared_ptr<const WaveField> waves, const SeaSpec& sea) {
+  const std::string entry = "bodies." + body.name;
+  if (body.hull.shape == HullSpec::Shape::none) throw SpecificationError(entry, "hull", "the body has no hull");
+  Mesh mesh;
+  try {
+    mesh = build_hull_mesh(body.hull);
+  } catch (const MeshError& error) {
+    throw SpecificationError(entry, "hull", error.what());
+  }
+  check_resolution(body, mesh, *waves);
+  return std::make_unique<Hydrostatics>(body, index, mesh, std::move(waves), sea);
+}
+
+}  // namespace stillhook

@@ -1,0 +1,37 @@
+// The Froude-Krylov force of linear theory: the pressure of the undisturbed wave on the mean wetted surface.
+//
+//   X_i = -int_S rho g exp(k z) exp(i k (x cos b + y sin b)) n_i dS,    k = w^2 / g,  n out of the hull,
+//   n_4..6 = x_B x n, moments about Bo;   force = Re[ X a exp(i th) ]  as in coefficients.h
+//
+// S: the hull mesh below the calm water plane, x_B from Bo. Deep water. (Faltinsen 1990, ch. 3; Newman 1977, ch. 6)
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "sim/hull/mesh.h"
+
+namespace stillhook {
+
+class LinearFroudeKrylov {
+ public:
+  /// The part of `hull` (B, m) below z_B = waterline (m). density kg/m3, gravity m/s2. Throws MeshError when nothing
+  /// is below.
+  LinearFroudeKrylov(const Mesh& hull, double waterline, double density, double gravity);
+
+  /// X per unit amplitude, N/m and N m/m. frequency rad/s, heading rad relative to B's x axis.
+  Eigen::Matrix<std::complex<double>, 6, 1> excitation(double frequency, double heading) const;
+
+  /// m3, enclosed by S and the water plane.
+  double volume() const { return volume_; }
+  double gravity() const { return gravity_; }  // m/s2
+
+ private:
+  struct Triangle {
+    Vector3 a, b, c;  // m; z from the water plane
+  };
+  std::vector<Triangle> wetted_;
+  double waterline_, density_, gravity_, volume_ = 0.0;
+};
+
+}  // namespace stillhook

@@ -1,0 +1,148 @@
+// Is a triangle mesh a hull? (check_mesh of mesh.h)
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+
+#include "sim/hull/mesh.h"
+
+namespace stillhook {
+
+namespace {
+
+struct Neighbours {
+  int triangle[2] = {-1, -1};
+  bool forward[2] = {false, false};  // runs from the smaller vertex number to the larger
+  int count = 0;
+};
+
+using EdgeMap = std::unordered_map<std::uint64_t, Neighbours>;
+
+std::uint64_t edge_key(int a, int b) {
+  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+EdgeMap edges_of(const Mesh& mesh) {
+  EdgeMap edges;
+  edges.reserve(mesh.triangles.size() * 3 / 2 + 1);
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    for (int e = 0; e < 3; ++e) {
+      const int a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
+      Neighbours& n = edges[edge_key(a, b)];
+      if (n.count < 2) {
+        n.triangle[n.count] = t;
+        n.forward[n.count] = a < b;
+      }
+      ++n.count;
+    }
+  return edges;
+}
+
+std::string count_of(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+void check_numbers(const Mesh& mesh, const std::string& what) {
+  if (mesh.triangles.empty()) throw MeshError(what + ": the mesh has no triangles");
+  std::size_t bad = 0;
+  for (const Vector3& v : mesh.vertices) bad += !v.allFinite();
+  if (bad > 0)
+    throw MeshError(what + ": " +
+                    count_of(bad, "vertex has a coordinate that is", "vertices have coordinates that are") +
+                    " not a number");
+  for (const auto& t : mesh.triangles)
+    for (const int v : t)
+      if (v < 0 || v >= static_cast<int>(mesh.vertices.size()))
+        throw MeshError(what + ": a triangle refers to vertex " + std::to_string(v) + " of " +
+                        std::to_string(mesh.vertices.size()));
+  const MeshProperties p = properties_of(mesh);
+  const double size = (p.high - p.low).norm();
+  std::size_t flat = 0;
+  for (const auto& t : mesh.triangles) flat += !(area_vector(mesh, t).norm() > 1e-14 * size * size);
+  if (flat > 0) throw MeshError(what + ": " + count_of(flat, "triangle has", "triangles have") + " no area");
+}
+
+void check_closed(const EdgeMap& edges, const std::string& what) {
+  std::size_t open = 0, crowded = 0;
+  for (const auto& [key, n] : edges) {
+    open += n.count == 1;
+    crowded += n.count > 2;
+  }
+  if (crowded > 0)
+    throw MeshError(what + ": the mesh is not a single surface, " + count_of(crowded, "edge is", "edges are") +
+                    " shared by more than two triangles");
+  if (open > 0)
+    throw MeshError(what + ": the mesh is open, " + count_of(open, "edge belongs", "edges belong") +
+                    " to one triangle only; a hull must be closed, deck included");
+}
+
+// Turns the triangles of each connected part the same way and compares the result with what was given.
+class Orientation {
+ public:
+  Orientation(const Mesh& mesh, const EdgeMap& edges)
+      : mesh_(mesh), edges_(edges), turned_(mesh.triangles.size(), -1) {}
+
+  /// Number of triangles that face inwards; -1 when a part has only one side.
+  long inward_triangles() {
+    long inward = 0;
+    for (int seed = 0; seed < static_cast<int>(turned_.size()); ++seed) {
+      if (turned_[seed] >= 0) continue;
+      const long n = inward_in_part(seed);
+      if (n < 0) return -1;
+      inward += n;
+    }
+    return inward;
+  }
+
+ private:
+  long inward_in_part(int seed) {
+    std::vector<int> part{seed};
+    turned_[seed] = 0;
+    for (std::size_t next = 0; next < part.size(); ++next) {
+      const int t = part[next];
+      for (int e = 0; e < 3; ++e) {
+        const Neighbours& n = edges_.at(edge_key(mesh_.triangles[t][e], mesh_.triangles[t][(e + 1) % 3]));
+        const int other = n.triangle[0] == t ? n.triangle[1] : n.triangle[0];
+        const int wanted = turned_[t] ^ (n.forward[0] == n.forward[1]);
+        if (turned_[other] < 0) {
+          turned_[other] = wanted;
+          part.push_back(other);
+        } else if (turned_[other] != wanted) {
+          return -1;
+        }
+      }
+    }
+    double volume = 0.0;
+    long turned = 0;
+    const Vector3 about = mesh_.vertices[mesh_.triangles[seed][0]];
+    for (const int t : part) {
+      const auto& v = mesh_.triangles[t];
+      const double six =
+          (mesh_.vertices[v[0]] - about).dot((mesh_.vertices[v[1]] - about).cross(mesh_.vertices[v[2]] - about));
+      volume += turned_[t] ? -six : six;
+      turned += turned_[t];
+    }
+    return volume > 0.0 ? turned : static_cast<long>(part.size()) - turned;
+  }
+
+  const Mesh& mesh_;
+  const EdgeMap& edges_;
+  std::vector<int> turned_;  // 0 as given, 1 the other way round, -1 not visited
+};
+
+}  // namespace
+
+void check_mesh(const Mesh& mesh, const std::string& what) {
+  check_numbers(mesh, what);
+  const EdgeMap edges = edges_of(mesh);
+  check_closed(edges, what);
+  const long inward = Orientation(mesh, edges).inward_triangles();
+  const long all = static_cast<long>(mesh.triangles.size());
+  if (inward < 0) throw MeshError(what + ": the surface has only one side, no choice of normals is consistent");
+  if (inward == all)
+    throw MeshError(what + ": the mesh is inverted, all " + std::to_string(all) + " triangles face inwards");
+  if (inward > 0)
+    throw MeshError(what + ": the mesh is inverted in parts, " + std::to_string(inward) + " of " + std::to_string(all) +
+                    " triangles face inwards");
+}
+
+}  // namespace stillhook

@@ -1,0 +1,44 @@
+#include "sim/lifting/ballast.h"
+
+#include <cmath>
+
+#include "sim/specification.h"
+
+namespace stillhook {
+
+Ballast::Ballast(BallastOptions options) : ForceElement(options.name), options_(std::move(options)) {
+  const auto require = [&](bool holds, const char* field, const char* rule) {
+    if (!holds) throw SpecificationError("ballast." + name(), field, rule);
+  };
+  require(std::isfinite(options_.mass) && options_.mass >= 0.0, "mass", "must be >= 0 kg");
+  require(options_.drive >= 0, "drive", "a ballast transfer needs a drive");
+  require(options_.from.body == options_.to.body, "body", "both tanks must be on one body");
+}
+
+double Ballast::weight_moved(const Instant& now) const {
+  return options_.mass * options_.gravity * now.drive[options_.drive].position;
+}
+
+void Ballast::add_forces(const Instant& now, double, Memory, ForceSum& out) const {
+  const Vector3 lifted = weight_moved(now) * Vector3::UnitZ();
+  add_point_force(options_.from, now, lifted, out);
+  add_point_force(options_.to, now, -lifted, out);
+}
+
+void Ballast::add_jacobian(const Instant& now, double, Memory, JacobianSum& out) const {
+  using Matrix36 = Eigen::Matrix<double, 3, 6>;
+  const Vector3 lifted = weight_moved(now) * Vector3::UnitZ();
+  const Matrix36 none = Matrix36::Zero();  // the forces are constant in W; only their moments turn with the body
+  add_force_jacobian(options_.from, now, lifted, options_.from.body, none, none, true, out);
+  add_force_jacobian(options_.to, now, -lifted, options_.to.body, none, none, true, out);
+}
+
+double Ballast::potential_energy(const Instant& now, Memory) const {
+  return weight_moved(now) * (motion_of(options_.to, now).p.z() - motion_of(options_.from, now).p.z());
+}
+
+std::vector<Channel> Ballast::channels() const { return {{name() + ".moved", "N", "weight moved"}}; }
+
+void Ballast::measure(const Instant& now, Memory, std::span<double> out) const { out[0] = weight_moved(now); }
+
+}  // namespace stillhook

@@ -1,0 +1,306 @@
+#include "sim/lifting/contact.h"
+
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/lifting/unilateral.h"
+#include "sim/specification.h"
+
+namespace stillhook {
+
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+
+// The surface body: its frame, and its motion expressed in it.
+struct Contact::Surface {
+  Matrix3 R_WS = Matrix3::Identity();
+  Vector3 p_WC = Vector3::Zero(), v_WC = Vector3::Zero(), w_S = Vector3::Zero();
+};
+
+// One point as seen from the surface body.
+struct Contact::Touch {
+  BodyPoint point;
+  PointMotion motion;   // in W
+  Vector3 x_S, v_S;     // m, m/s: position from the surface body's C, and velocity seen by it
+  double depth = 0.0;   // m, below the plane of the rectangle
+  double beside = 0.0;  // m, horizontal distance from the rectangle, 0 above it
+  bool touching() const { return depth > 0.0 && beside == 0.0; }
+  double gap() const { return beside > 0.0 ? std::hypot(beside, depth) : -depth; }
+};
+
+// The tangential force on one point: of the spring (E), and in all (F).
+struct Contact::Grip {
+  Eigen::Vector2d spring, force;  // N
+  bool slips = false;             // the anchor is dragged along
+  // By the spring's uncut force, by the damper's and by the cone mu N.
+  Eigen::Matrix2d by_spring, by_damper;
+  Eigen::Vector2d by_cone;
+};
+
+namespace {
+
+// A force cut to a length, and its derivatives with respect to both.
+struct Cut {
+  Eigen::Vector2d force, by_cone = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d by_force = Eigen::Matrix2d::Identity();
+  bool acts = false;
+};
+
+Cut cut(const Eigen::Vector2d& force, double cone) {
+  Cut c{.force = force};
+  const double size = force.norm();
+  if (!(size > cone)) return c;
+  c.acts = true;
+  c.by_cone = force / size;
+  c.force = cone * c.by_cone;
+  c.by_force = cone / size * (Eigen::Matrix2d::Identity() - c.by_cone * c.by_cone.transpose());
+  return c;
+}
+
+}  // namespace
+
+Contact::Contact(ContactOptions options) : ForceElement(options.name), options_(std::move(options)) {
+  const ContactOptions& o = options_;
+  const auto require = [&](bool holds, const char* field, const char* rule) {
+    if (!holds) throw SpecificationError("contacts." + name(), field, rule);
+  };
+  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
+  const auto not_negative = [](double v) { return std::isfinite(v) && v >= 0.0; };
+  require(!o.points.empty(), "points", "at least one point is needed");
+  require(o.body != o.surface.body, "surface_body", "points and surface must be on different bodies");
+  require(positive(o.length), "surface_length", "must be > 0 m");
+  require(positive(o.breadth), "surface_breadth", "must be > 0 m");
+  require(positive(o.stiffness), "stiffness", "must be > 0 N/m");
+  require(not_negative(o.damping), "damping", "must be >= 0 N s/m");
+  require(positive(o.damping_depth), "damping_depth", "must be > 0 m");
+  require(not_negative(o.friction), "friction", "must be >= 0");
+  k_ = o.stiffness / static_cast<double>(o.points.size());
+  c_ = o.damping / static_cast<double>(o.points.size());
+}
+
+Contact::Surface Contact::surface(const Instant& now) const {
+  if (options_.surface.body == kWorld) return {};
+  const BodyKinematics& b = now.body[options_.surface.body];
+  return {b.R_WB, b.p_WC, b.v_WC, b.w_B};
+}
+
+Contact::Touch Contact::touch(const Vector3& point, const Surface& s, const Instant& now) const {
+  Touch t;
+  t.point = {options_.body, point};
+  t.motion = motion_of(t.point, now);
+  t.x_S = s.R_WS.transpose() * (t.motion.p - s.p_WC);
+  t.v_S = s.R_WS.transpose() * (t.motion.v - s.v_WC) - s.w_S.cross(t.x_S);
+  const Vector3 from_centre = t.x_S - options_.surface.c_B;
+  t.depth = -from_centre.z();
+  t.beside = std::hypot(std::max(0.0, std::abs(from_centre.x()) - 0.5 * options_.length),
+                        std::max(0.0, std::abs(from_centre.y()) - 0.5 * options_.breadth));
+  return t;
+}
+
+Contact::Grip Contact::grip(const Touch& t, double N, std::span<const double> state) const {
+  const Eigen::Vector2d anchor(state[kAnchorX], state[kAnchorY]);
+  const double cone = options_.friction * N;
+  const Cut spring = cut(-k_ * (t.x_S.head<2>() - anchor), cone);
+  const Cut all = cut(spring.force - c_ * t.v_S.head<2>(), cone);
+  Grip g;
+  g.spring = spring.force;
+  g.force = all.force;
+  g.slips = spring.acts;
+  g.by_spring = all.by_force * spring.by_force;
+  g.by_damper = all.by_force;
+  g.by_cone = all.by_force * spring.by_cone + all.by_cone;
+  return g;
+}
+
+void Contact::start(const Instant& now, Memory m) const {
+  const Surface s = surface(now);
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    const auto state = m.state.subspan(kStatesPerPoint * i, kStatesPerPoint);
+    state[kAnchorX] = t.x_S.x();
+    state[kAnchorY] = t.x_S.y();
+    state[kSlipX] = state[kSlipY] = 0.0;
+  }
+}
+
+void Contact::settle(const Instant& now, Memory m) const {
+  const Surface s = surface(now);
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    const auto state = m.state.subspan(kStatesPerPoint * i, kStatesPerPoint);
+    state[kSlipX] = state[kSlipY] = 0.0;
+    if (active(now) && t.touching()) continue;
+    state[kAnchorX] = t.x_S.x();
+    state[kAnchorY] = t.x_S.y();
+  }
+}
+
+void Contact::end_step(const Instant& now, double h, Memory m) const {
+  const Surface s = surface(now);
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    const auto state = m.state.subspan(kStatesPerPoint * i, kStatesPerPoint);
+    Eigen::Vector2d anchor(state[kAnchorX], state[kAnchorY]);
+    Eigen::Vector2d slip = Eigen::Vector2d::Zero();
+    if (!active(now) || !t.touching()) {
+      anchor = t.x_S.head<2>();
+    } else {
+      const Grip g = grip(t, unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth), state);
+      if (g.slips) {
+        const Eigen::Vector2d moved = t.x_S.head<2>() + g.spring / k_;
+        if (h > 0.0) slip = (moved - anchor) / h;
+        anchor = moved;
+      }
+    }
+    state[kAnchorX] = anchor.x();
+    state[kAnchorY] = anchor.y();
+    state[kSlipX] = slip.x();
+    state[kSlipY] = slip.y();
+  }
+}
+
+void Contact::add_forces(const Instant& now, double, Memory m, ForceSum& out) const {
+  if (!active(now)) return;
+  const Surface s = surface(now);
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    if (!t.touching()) continue;
+    const double N = unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth);
+    const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
+    const Vector3 f_S(g.force.x(), g.force.y(), N);
+    const Vector3 F_W = s.R_WS * f_S;
+    add_point_force(t.point, now, F_W, out);
+    out.add(options_.surface.body, -F_W, -t.x_S.cross(f_S));
+  }
+}
+
+void Contact::add_jacobian(const Instant& now, double, Memory m, JacobianSum& out) const {
+  if (!active(now)) return;
+  using Dual = ceres::Jet<double, 2>;
+  const Surface s = surface(now);
+  const Matrix3 R_SW = s.R_WS.transpose(), turn = cross_matrix(s.w_S);
+  const int A = options_.body, S = options_.surface.body;
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    if (!t.touching()) continue;
+    const Dual N =
+        unilateral_force(Dual(t.depth, 0), Dual(-t.v_S.z(), 1), Dual(k_), Dual(c_), Dual(options_.damping_depth));
+    if (N.a <= 0.0) continue;
+
+    // f_S = (F_t, N) and its derivatives with respect to x_S and v_S.
+    const Grip g = grip(t, N.a, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
+    const Vector3 f_S(g.force.x(), g.force.y(), N.a);
+    const Vector3 by_N(options_.friction * g.by_cone.x(), options_.friction * g.by_cone.y(), 1.0);
+    Matrix3 f_x = Matrix3::Zero(), f_v = Matrix3::Zero();
+    f_x.col(2) = -N.v[0] * by_N;
+    f_v.col(2) = -N.v[1] * by_N;
+    f_x.topLeftCorner<2, 2>() -= k_ * g.by_spring;
+    f_v.topLeftCorner<2, 2>() -= c_ * g.by_damper;
+
+    // x_S and v_S by the configurations (x_A, v_A of the point's body, x_S, v_S of the surface's) and velocities.
+    const Matrix36 P = position_jacobian(t.point, now), V = velocity_stiffness(t.point, now);
+    const Matrix36 xA = R_SW * P, vA = R_SW * V - turn * xA;
+    Matrix36 xS = Matrix36::Zero(), vS = Matrix36::Zero(), rate_S = Matrix36::Zero(), swing = Matrix36::Zero();
+    xS << -R_SW, cross_matrix(t.x_S);
+    rate_S = xS;
+    vS = -turn * xS;
+    vS.rightCols<3>() += cross_matrix(R_SW * (t.motion.v - s.v_WC));
+    swing.rightCols<3>() = -cross_matrix(f_S);  // the force turns with the surface
+
+    const Matrix36 f_A = f_x * xA + f_v * vA, f_A_u = f_v * xA;
+    const Matrix36 f_Sx = f_x * xS + f_v * vS, f_S_u = f_v * rate_S;
+    const Vector3 F_W = s.R_WS * f_S;
+    add_force_jacobian(t.point, now, F_W, A, s.R_WS * f_A, s.R_WS * f_A_u, true, out);
+    add_force_jacobian(t.point, now, F_W, S, s.R_WS * (f_Sx + swing), s.R_WS * f_S_u, false, out);
+
+    // On the surface body: force -F_W, moment -x_S x f_S in its frame.
+    const Matrix3 arm = cross_matrix(t.x_S), press = cross_matrix(f_S);
+    Matrix6 K, C;
+    K << -s.R_WS * f_A, -arm * f_A + press * xA;
+    C << -s.R_WS * f_A_u, -arm * f_A_u;
+    out.add_stiffness(S, A, K);
+    out.add_damping(S, A, C);
+    K << -s.R_WS * (f_Sx + swing), -arm * f_Sx + press * xS;
+    C << -s.R_WS * f_S_u, -arm * f_S_u;
+    out.add_stiffness(S, S, K);
+    out.add_damping(S, S, C);
+  }
+}
+
+double Contact::potential_energy(const Instant& now, Memory m) const {
+  if (!active(now)) return 0.0;
+  const Surface s = surface(now);
+  double energy = 0.0;
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    if (!t.touching()) continue;
+    const double N = unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth);
+    const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
+    energy += unilateral_energy(t.depth, k_) + 0.5 * g.spring.squaredNorm() / k_;
+  }
+  return energy;
+}
+
+double Contact::dissipated_power(const Instant& now, Memory m) const {
+  if (!active(now)) return 0.0;
+  const Surface s = surface(now);
+  double power = 0.0;
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    if (!t.touching()) continue;
+    const double rate = -t.v_S.z();
+    const double N = unilateral_force(t.depth, rate, k_, c_, options_.damping_depth);
+    const auto state = m.state.subspan(kStatesPerPoint * i, kStatesPerPoint);
+    const Eigen::Vector2d slip(state[kSlipX], state[kSlipY]);
+    const Grip g = grip(t, N, state);
+    power += unilateral_dissipation(N, t.depth, rate, k_);
+    // The slip is that of the last step: it may lag behind a force that has just turned.
+    power += (g.spring - g.force).dot(t.v_S.head<2>()) + std::max(0.0, -g.spring.dot(slip));
+  }
+  return power;
+}
+
+std::vector<Channel> Contact::channels() const {
+  return {{name() + ".force", "N", "normal force, all points together"},
+          {name() + ".penetration", "m", "deepest penetration"},
+          {name() + ".gap", "m", "smallest distance to the surface, negative when penetrated"},
+          {name() + ".approach_speed", "m/s", "normal approach speed of the fastest touching, else the nearest point"},
+          {name() + ".x", "m", "place: mean of the touching points, else the nearest point"},
+          {name() + ".y", "m", "place"},
+          {name() + ".z", "m", "place"}};
+}
+
+void Contact::measure(const Instant& now, Memory, std::span<double> out) const {
+  const Surface s = surface(now);
+  double force = 0.0, penetration = 0.0, gap = std::numeric_limits<double>::infinity();
+  double approach = 0.0, nearest_approach = 0.0;
+  int touching = 0;
+  Vector3 sum = Vector3::Zero(), nearest = Vector3::Zero();
+  for (const Vector3& point : options_.points) {
+    const Touch t = touch(point, s, now);
+    const double rate = -t.v_S.z();
+    if (t.gap() < gap) {
+      gap = t.gap();
+      nearest = t.motion.p;
+      nearest_approach = std::max(0.0, rate);
+    }
+    if (!active(now) || !t.touching()) continue;
+    ++touching;
+    sum += t.motion.p;
+    force += unilateral_force(t.depth, rate, k_, c_, options_.damping_depth);
+    penetration = std::max(penetration, t.depth);
+    approach = std::max(approach, rate);
+  }
+  const Vector3 place = touching > 0 ? Vector3(sum / touching) : nearest;
+  out[0] = force;
+  out[1] = penetration;
+  out[2] = gap;
+  out[3] = touching > 0 ? approach : nearest_approach;
+  out[4] = place.x();
+  out[5] = place.y();
+  out[6] = place.z();
+}
+
+}  // namespace stillhook

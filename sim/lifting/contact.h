@@ -1,0 +1,80 @@
+// Contact of points of one body with a flat rectangle fixed to another.
+//
+// In the surface body's frame S, for each point at depth d below the rectangle (d > 0 and inside its edges):
+//   N   = max(0, k d + c s(d / d0) ddot)      along +z of S, see unilateral.h: continuous at the touch, no adhesion
+//   F_t = P(E - c_t v_t),  E = P(-k_t (x_t - a))        in the plane of S: sticks up to the friction cone, then slips
+//
+//   k, c  stiffness (N/m) and damping (N s/m) of one point, the given totals divided by the number of points
+//   d0    depth over which the damping grows, m       mu  friction, 1
+//   k_t, c_t  tangential stiffness and damping: those of the normal direction
+//   x_t, v_t  place and velocity of the point in the plane, seen by the surface body        a  where it sticks, m
+//   P     cut to the friction cone: P(f) = f while |f| <= mu N, else mu N f/|f|
+//
+// The anchor a is the element's state: it follows the point while there is no touch, stays while it sticks, and after a
+// slip stands where the spring carries just what the cone allows (radial return, as in plasticity). So a load at rest
+// on a deck stays where it stands, and statics (h = 0) hold it where start() found it. The surface body feels the
+// opposite force at the touching point, with its moment. Energy: sum of 1/2 k d^2 + 1/2 |E|^2/k_t; heat:
+// (N - k d) ddot + (E - F_t) . v_t - E . adot. Each of the three is never negative; the second because a cut to a
+// convex set has (E - F_t) . v_t >= |E - F_t|^2 / c_t, which a damper inside a single cut would not give. A point that
+// leaves the surface loses what is stored.
+#pragma once
+
+#include "sim/multibody/point.h"
+
+namespace stillhook {
+
+struct ContactOptions {
+  std::string name;
+  int body = kWorld;                   // carries the points
+  std::vector<Vector3> points;         // m, c_B: relative to its centre of gravity; at least one
+  BodyPoint surface;                   // centre of the rectangle on the other body (or the world)
+  double length = 0.0, breadth = 0.0;  // m, along x and y of the surface body, > 0
+  double stiffness = 0.0;              // N/m, all points together, > 0
+  double damping = 0.0;                // N s/m, all points together, >= 0
+  double damping_depth = 0.005;        // m, > 0
+  double friction = 0.0;               // 1, >= 0
+  int active_from_phase = 0;           // index of the operation's phase with which the contact begins to act
+};
+
+class Contact final : public ForceElement {
+ public:
+  /// Throws SpecificationError when an option breaks its inequality.
+  explicit Contact(ContactOptions options);
+
+  const ContactOptions& options() const { return options_; }
+
+  int state_size() const override { return kStatesPerPoint * static_cast<int>(options_.points.size()); }
+  void start(const Instant& now, Memory m) const override;
+  void settle(const Instant& now, Memory m) const override;
+  void end_step(const Instant& now, double h, Memory m) const override;
+  void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
+  void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
+  double potential_energy(const Instant& now, Memory m) const override;
+  double dissipated_power(const Instant& now, Memory m) const override;
+  /// Force, deepest penetration, smallest gap (distance to the rectangle; negative: penetrated), approach speed
+  /// (fastest touching point, or the nearest one while none touches; 0 when it moves away), and place: mean of the
+  /// touching points, or the nearest one.
+  std::vector<Channel> channels() const override;
+  void measure(const Instant& now, Memory m, std::span<double> out) const override;
+
+ private:
+  struct Surface;
+  struct Touch;
+  struct Grip;
+  enum {
+    kAnchorX,
+    kAnchorY,
+    kSlipX,
+    kSlipY,
+    kStatesPerPoint
+  };  // m in S, and speed of the anchor over the last step, m/s
+  Surface surface(const Instant& now) const;
+  Touch touch(const Vector3& point, const Surface& s, const Instant& now) const;
+  Grip grip(const Touch& t, double N, std::span<const double> state) const;
+  bool active(const Instant& now) const { return now.phase >= options_.active_from_phase; }
+
+  ContactOptions options_;
+  double k_ = 0.0, c_ = 0.0;  // of one point
+};
+
+}  // namespace stillhook

@@ -1,0 +1,136 @@
+#include "sim/lifting/mooring.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/specification.h"
+
+namespace stillhook {
+
+namespace {
+constexpr double kNearAnchor = 1e-6;  // share of the length below which H is taken linear in x
+}
+
+Mooring::Mooring(MooringOptions options, const Instant& initial)
+    : ForceElement(options.name), options_(std::move(options)) {
+  const MooringOptions& o = options_;
+  const auto require = [&](bool holds, const char* field, const char* rule) {
+    if (!holds) throw SpecificationError("moorings." + name(), field, rule);
+  };
+  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
+  const PointMotion fairlead = motion_of(o.fairlead, initial);
+  const Vector3 outward(std::cos(o.azimuth), std::sin(o.azimuth), 0.0);
+  if (o.type == MooringOptions::Type::linear) {
+    require(std::isfinite(o.pretension) && o.pretension >= 0.0, "pretension", "must be >= 0 N");
+    require(positive(o.stiffness), "stiffness", "must be > 0 N/m");
+    require(positive(o.anchor_distance), "anchor_distance", "must be > 0 m");
+    anchor_ = fairlead.p + o.anchor_distance * outward;
+  } else {
+    require(positive(o.pretension), "pretension", "a catenary needs a horizontal pretension > 0 N");
+    require(positive(o.line.length), "length", "must be > 0 m");
+    require(positive(o.line.weight), "weight", "must be > 0 N/m");
+    require(positive(o.line.axial_stiffness), "axial_stiffness", "must be > 0 N");
+    require(std::isfinite(o.line.seabed_friction) && o.line.seabed_friction >= 0.0, "seabed_friction", "must be >= 0");
+    require(positive(o.depth), "depth", "a catenary needs a water depth > 0 m");
+    const double height = fairlead.p.z() + o.depth;
+    require(height > 0.0, "fairlead", "must lie above the seabed at the initial pose");
+    const double distance = catenary_distance(o.line, o.pretension, height);
+    require(distance > 0.0, "length", "too short to reach the seabed with this pretension");
+    anchor_ = fairlead.p + distance * outward;
+    anchor_.z() = -o.depth;
+  }
+  if (o.tow_drive >= 0) {
+    require(std::abs(o.tow_direction.norm() - 1.0) < 1e-9, "tow_direction", "must be a unit vector");
+    anchor_ -= initial.drive[o.tow_drive].position * o.tow_direction;
+  }
+}
+
+BodyPoint Mooring::anchor_now(const Instant& now) const {
+  BodyPoint point{kWorld, anchor_};
+  if (options_.tow_drive >= 0) point.c_B += now.drive[options_.tow_drive].position * options_.tow_direction;
+  return point;
+}
+
+Mooring::Load Mooring::linear_load(double x) const {
+  Load load;
+  const double H = options_.pretension + options_.stiffness * (x - options_.anchor_distance);
+  if (H <= 0.0) return load;
+  load.H = H;
+  load.H_x = options_.stiffness;
+  load.energy = 0.5 * H * H / options_.stiffness;
+  return load;
+}
+
+Mooring::Load Mooring::catenary_load(double x, double z, Memory m) const {
+  const CatenaryLoad c = solve_catenary(options_.line, x, z, m.state[0], m.state[1]);
+  Load load;
+  load.H = c.H;
+  load.V = c.V;
+  load.H_x = c.stiffness(0, 0);
+  load.H_z = c.stiffness(0, 1);
+  load.V_x = c.stiffness(1, 0);
+  load.V_z = c.stiffness(1, 1);
+  load.energy = catenary_energy(options_.line, c, x, z);
+  return load;
+}
+
+Mooring::Load Mooring::load(const Instant& now, Memory m) const {
+  const Vector3 r = motion_of(options_.fairlead, now).p - anchor_now(now).c_B;
+  const double x = std::hypot(r.x(), r.y());
+  const bool linear = options_.type == MooringOptions::Type::linear;
+  const double nearest = kNearAnchor * (linear ? options_.anchor_distance : options_.line.length);
+  const double reach = std::max(x, nearest);
+  Load load = linear ? linear_load(reach) : catenary_load(reach, r.z(), m);
+  load.H_over_x = load.H / reach;
+  if (x < nearest) {
+    const double share = x / nearest;
+    load.H *= share;
+    load.H_z *= share;
+    load.H_x = load.H_over_x;
+    load.V_x = 0.0;
+  }
+  if (x > 0.0) load.u = Vector3(-r.x() / x, -r.y() / x, 0.0);
+  return load;
+}
+
+void Mooring::start(const Instant& now, Memory m) const {
+  m.state[0] = m.state[1] = 0.0;
+  end_step(now, 0.0, m);
+}
+
+void Mooring::end_step(const Instant& now, double, Memory m) const {
+  const Load l = load(now, m);
+  m.state[0] = l.H;
+  m.state[1] = l.V;
+}
+
+void Mooring::add_forces(const Instant& now, double, Memory m, ForceSum& out) const {
+  add_point_force(options_.fairlead, now, load(now, m).force(), out);
+}
+
+void Mooring::add_jacobian(const Instant& now, double, Memory m, JacobianSum& out) const {
+  // F = -H r_h/x - V e_z with r from the anchor to the fairlead, so dx = -u . dr_h and dz = dr_z.
+  const Load l = load(now, m);
+  const Vector3 up = Vector3::UnitZ();
+  Matrix3 level = Matrix3::Identity();
+  level(2, 2) = 0.0;
+  const Matrix3 along = l.u * l.u.transpose();
+  const Matrix3 dF_dr = -l.H_x * along - l.H_over_x * (level - along) + l.H_z * l.u * up.transpose() +
+                        l.V_x * up * l.u.transpose() - l.V_z * up * up.transpose();
+  add_pair_jacobian(options_.fairlead, anchor_now(now), now, l.force(), dF_dr, Matrix3::Zero(), out);
+}
+
+double Mooring::potential_energy(const Instant& now, Memory m) const { return load(now, m).energy; }
+
+std::vector<Channel> Mooring::channels() const {
+  return {{name() + ".tension", "N", "tension at the fairlead"},
+          {name() + ".horizontal_tension", "N", "its horizontal part"}};
+}
+
+void Mooring::measure(const Instant& now, Memory m, std::span<double> out) const {
+  const Load l = load(now, m);
+  out[0] = std::hypot(l.H, l.V);
+  out[1] = l.H;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,115 @@
+// Taglines under proportional-derivative control: Eq. 12-15 of Cha, Nam & Ha (2018), on a real winch.
+//
+// Sign. theta is the angle of the hoist wire from the vertical in the vertical plane of the tagline, positive where
+// the load hangs away from the tagline's winch; pulling reduces it. With n the horizontal unit vector of the plane,
+// from the winch towards the load, and d the lower end of the hoist wire from its upper end,
+//   theta = atan2(n . d, -d_z),     e = theta - set_point,     edot = thetadot  (the set point is constant).
+// So thetadot > 0 means that the load moves away from the winch, and the winch pulls to stop it.
+//   case A  (thetadot >= 0, e >= 0):  T_law = Kp e + Kd edot                              (12)
+//   case B  (thetadot >= 0, e <  0):  T_law = Kd edot                                     (13)
+//   case C  (thetadot <  0):          T_law = 0                                           (14)
+//   T_command = min(pretension + T_law, tension_max);   force on the load: T towards the winch (15).
+//
+// The plane. n is the horizontal direction from the line's winch to its point on the load at the initial pose, kept in
+// the heading of the winch's body from then on. The direction at each instant would be the other choice: but a line to
+// a hoisted load stands steep, and then a metre of sway or a few degrees of load yaw turns it by tens of degrees, its
+// sign flips when the load passes over the winch, and its derivative has no bound. With the direction kept, theta
+// stays the smooth "fore-aft" (or athwart) angle that the operator sees, and turns with the vessel.
+//
+// The winch. Line: elastic and unilateral, T = max(0, k (l - Lw)), k = EA/(length at the initial pose), l its length,
+// Lw the length paid out. The winch runs at
+//   dLw/dt = clip( ldot + (T_lin - T_command)/(k tau), -+ speed_max ),    T_lin = k (l - Lw),
+// so that below its speed limit the tension follows its command as a first-order lag, tau dT/dt = T_command - T,
+// however the load moves, and at its limit the line is an elastic one on a winch of constant speed. Above tension_max
+// the brake slips: T = tension_max.
+//
+// One step, h: by the trapezoidal rule the tension without a limit is
+//   T1 = ((1 - a) T0 + a (c0 + c1))/(1 + a),   a = h/(2 tau),   c = T_command,
+// the line paid out for it dLw = l1 - l0 - (T1 - T0)/k; if |dLw| > h speed_max it is cut to that and T1 = k (l1 - Lw1).
+// All in closed form, so the state leaves Newton's method. Whether case C holds is decided once a step, from its
+// converged beginning, as a sampled controller does: at thetadot = 0 the law jumps (by Kp e), and a step that ends on
+// the jump would have no solution. In a step that begins in case A or B the law is max(0, Kp max(0, e) + Kd edot),
+// which is Eq. 12 and 13 as long as thetadot stays positive; the switch comes at most one step late. In statics (h = 0)
+// T is the steady value, min(pretension + Kp max(0, e), tension_max).
+//
+// Energy: 1/2 T^2/k in the line; heat T x slip speed in the brake; the winch gives -T x (rest of the line speed).
+#pragma once
+
+#include "sim/lifting/plane_angle.h"
+
+namespace stillhook {
+
+struct TaglineOptions {
+  std::string name;
+  BodyPoint from, to;                  // winch, load
+  BodyPoint hoist_upper, hoist_lower;  // ends of the hoist wire whose angle is controlled
+  double kp = 0.0;                     // N/rad, >= 0
+  double kd = 0.0;                     // N s/rad, >= 0
+  double set_point = 0.0;              // rad
+  double pretension = 0.0;             // N, >= 0
+  double tension_max = 0.0;            // N, > 0
+  double speed_max = 0.0;              // m/s, >= 0; 0 = unlimited
+  double time_constant = 0.5;          // s, > 0
+  double axial_stiffness = 2.0e7;      // EA, N, > 0
+  bool active = true;                  // false: no line
+  int active_from_phase = 0;           // index of the operation's phase with which the line is connected
+};
+
+enum class TaglineCase { A, B, C };
+
+/// Which of Eq. 12-14 holds.
+TaglineCase tagline_case(double theta_rate, double error);
+
+/// T_law of Eq. 12-14, N.
+double tagline_law(double theta, double theta_rate, double set_point, double kp, double kd);
+
+class Tagline final : public ForceElement {
+ public:
+  /// `initial` defines the plane and the length that EA refers to. Throws SpecificationError when an option breaks its
+  /// inequality, or when the line stands so steep at the initial pose (less than a tenth of its length horizontal)
+  /// that it defines no plane.
+  Tagline(TaglineOptions options, const Instant& initial);
+
+  const TaglineOptions& options() const { return options_; }
+  double line_stiffness() const { return k_; }  // N/m
+  const PlaneAngle& angle() const { return angle_; }
+
+  int state_size() const override { return kStates; }
+  int scratch_size() const override { return kScratch; }
+  void start(const Instant& now, Memory m) const override;
+  void begin_step(const Instant& before, double h, Memory m) const override;
+  void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
+  void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
+  void end_step(const Instant& now, double h, Memory m) const override;
+  double potential_energy(const Instant& now, Memory m) const override;
+  double dissipated_power(const Instant& now, Memory m) const override;
+  std::vector<Channel> channels() const override;
+  void measure(const Instant& now, Memory m, std::span<double> out) const override;
+
+ private:
+  // State: line paid out (m), mean speed of it and of the slipping brake over the last step (m/s), saturated (0 or 1).
+  enum { kPaidOut, kLineSpeed, kSlipSpeed, kSaturated, kStates };
+  // Scratch, from the beginning of the step: line length (m), command (N), whether the law pulls (0 or 1).
+  enum { kLength, kCommand, kPulling, kScratch };
+
+  struct Command {
+    double value = 0.0, by_angle = 0.0, by_rate = 0.0;  // N, N/rad, N s/rad
+    bool limited = false;
+  };
+  struct Pull {
+    double tension = 0.0, by_length = 0.0, by_command = 0.0;    // N, N/m, 1
+    double paid_out = 0.0, line_speed = 0.0, slip_speed = 0.0;  // m, m/s, m/s
+    bool limited = false;
+  };
+  bool active(const Instant& now) const { return options_.active && now.phase >= options_.active_from_phase; }
+  Command command(const PlaneAngle::Value& angle, bool pulling) const;
+  Command steady_command(const PlaneAngle::Value& angle) const;
+  Pull pull(double length, double command, double h, Memory m) const;
+  double held_tension(const Instant& now, Memory m) const;
+
+  TaglineOptions options_;
+  PlaneAngle angle_;
+  double k_ = 0.0;  // N/m
+};
+
+}  // namespace stillhook

@@ -1,0 +1,105 @@
+#include "sim/lifting/wire.h"
+
+#include <ceres/jet.h>
+
+#include <cmath>
+
+#include "sim/lifting/line.h"
+#include "sim/specification.h"
+
+namespace stillhook {
+
+namespace {
+constexpr double kShortestShare = 0.01;  // of the unstretched length at the start: block on sheave
+}
+
+double wire_damping(double damping_ratio, double mass, double axial_stiffness, double unstretched_length) {
+  return 2.0 * damping_ratio * std::sqrt(axial_stiffness / unstretched_length * mass);
+}
+
+Wire::Wire(WireOptions options) : ForceElement(options.name), options_(std::move(options)) {
+  const auto require = [&](bool holds, const char* field, const char* rule) {
+    if (!holds) throw SpecificationError("wires." + name(), field, rule);
+  };
+  const WireOptions& o = options_;
+  require(std::isfinite(o.axial_stiffness) && o.axial_stiffness > 0.0, "axial_stiffness", "must be > 0 N");
+  require(std::isfinite(o.unstretched_length) && o.unstretched_length > 0.0, "unstretched_length", "must be > 0 m");
+  require(std::isfinite(o.damping) && o.damping >= 0.0, "damping", "must be >= 0 N s/m");
+  require(std::isfinite(o.damping_strain) && o.damping_strain > 0.0, "damping_strain", "must be > 0");
+}
+
+Wire::Unstretched Wire::unstretched(const Instant& now) const {
+  if (options_.drive < 0) return {options_.unstretched_length, 0.0};
+  const DriveState& drive = now.drive[options_.drive];
+  const double length = options_.unstretched_length - drive.position;
+  const double shortest = kShortestShare * options_.unstretched_length;
+  if (length < shortest) return {shortest, 0.0};
+  return {length, -drive.rate};
+}
+
+double Wire::unstretched_length(const Instant& now) const { return unstretched(now).length; }
+
+double Wire::tension(const Instant& now) const {
+  const LineMotion line = line_motion(options_.from, options_.to, now);
+  const Unstretched L = unstretched(now);
+  return wire_tension(line.length, line.rate, L.length, L.rate, options_);
+}
+
+void Wire::add_forces(const Instant& now, double, Memory, ForceSum& out) const {
+  const LineMotion line = line_motion(options_.from, options_.to, now);
+  const Unstretched L = unstretched(now);
+  const double tension = wire_tension(line.length, line.rate, L.length, L.rate, options_);
+  if (tension > 0.0) add_line_forces(options_.from, options_.to, now, line, tension, out);
+}
+
+void Wire::add_jacobian(const Instant& now, double, Memory, JacobianSum& out) const {
+  using Dual = ceres::Jet<double, 2>;
+  const LineMotion line = line_motion(options_.from, options_.to, now);
+  const Unstretched L = unstretched(now);
+  const Dual tension = wire_tension(Dual(line.length, 0), Dual(line.rate, 1), Dual(L.length), Dual(L.rate), options_);
+  if (tension.a > 0.0)
+    add_line_jacobian(options_.from, options_.to, now, line, tension.a, tension.v[0], tension.v[1], out);
+}
+
+double Wire::potential_energy(const Instant& now, Memory) const {
+  const LineMotion line = line_motion(options_.from, options_.to, now);
+  const double L = unstretched(now).length;
+  return unilateral_energy(line.length - L, options_.axial_stiffness / L);
+}
+
+double Wire::dissipated_power(const Instant& now, Memory) const {
+  const LineMotion line = line_motion(options_.from, options_.to, now);
+  const Unstretched L = unstretched(now);
+  const double tension = wire_tension(line.length, line.rate, L.length, L.rate, options_);
+  return unilateral_dissipation(tension, line.length - L.length, line.rate - L.rate,
+                                options_.axial_stiffness / L.length);
+}
+
+std::vector<Channel> Wire::channels() const {
+  return {{name() + ".tension", "N", "tension"},
+          {name() + ".length", "m", "stretched length: distance of the ends"},
+          {name() + ".unstretched", "m", "unstretched length"},
+          {name() + ".rate", "m/s", "rate of the unstretched length, positive paying out"},
+          {name() + ".offset_x", "m", "lower end forward of the upper end, in the crane's heading"},
+          {name() + ".offset_y", "m", "lower end to port of the upper end, in the crane's heading"},
+          {name() + ".off_lead", "rad", "fore-aft angle from the vertical"},
+          {name() + ".side_lead", "rad", "athwart angle from the vertical"}};
+}
+
+void Wire::measure(const Instant& now, Memory, std::span<double> out) const {
+  const LineMotion line = line_motion(options_.from, options_.to, now);
+  const Unstretched L = unstretched(now);
+  const Matrix3 R_WH =
+      options_.crane == kWorld ? Matrix3(Matrix3::Identity()) : heading_rotation(now.body[options_.crane].R_WB);
+  const Vector3 offset_H = R_WH.transpose() * (-line.length * line.e);  // lower end from upper end
+  out[0] = wire_tension(line.length, line.rate, L.length, L.rate, options_);
+  out[1] = line.length;
+  out[2] = L.length;
+  out[3] = L.rate;
+  out[4] = offset_H.x();
+  out[5] = offset_H.y();
+  out[6] = std::atan2(offset_H.x(), -offset_H.z());
+  out[7] = std::atan2(offset_H.y(), -offset_H.z());
+}
+
+}  // namespace stillhook

@@ -1,0 +1,40 @@
+#include "sim/model.h"
+
+#include "sim/recorder.h"
+
+namespace stillhook {
+
+int Model::body_index(const std::string& name) const {
+  if (name == "world") return kWorld;
+  for (std::size_t i = 0; i < specification_.bodies.size(); ++i)
+    if (specification_.bodies[i].name == name) return static_cast<int>(i);
+  throw SpecificationError("bodies", "name", "there is no body '" + name + "'");
+}
+
+int Model::drive_index(const std::string& name) const {
+  for (std::size_t i = 0; i < specification_.drives.size(); ++i)
+    if (specification_.drives[i].name == name) return static_cast<int>(i);
+  throw SpecificationError("drives", "name", "there is no drive '" + name + "'");
+}
+
+int Model::element_index(const std::string& name) const {
+  for (std::size_t i = 0; i < system_.elements.size(); ++i)
+    if (system_.elements[i]->name() == name) return static_cast<int>(i);
+  return -1;
+}
+
+std::map<std::string, double> channel_values(const Model& model, const SystemState& state) {
+  SystemState copy = state;
+  SystemWorkspace work = model.system().make_workspace();
+  if (static_cast<int>(copy.element_state.size()) != model.system().element_state_size())
+    model.system().start_elements(copy, work);
+  VectorX unused;
+  model.system().forces(copy, 0.0, work, unused);  // some elements measure from what they last computed
+  ChannelBoard board(model);
+  board.measure(copy, work, copy.phase);
+  std::map<std::string, double> values;
+  for (std::size_t i = 0; i < board.channels().size(); ++i) values[board.channels()[i].name] = board.values()[i];
+  return values;
+}
+
+}  // namespace stillhook

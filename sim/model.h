@@ -1,0 +1,50 @@
+// A lift that can be simulated: bodies, constraints, force elements, drives, sea. Immutable once built.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/multibody/force_element.h"
+#include "sim/multibody/system.h"
+#include "sim/sea/wave_field.h"
+#include "sim/specification.h"
+
+namespace stillhook {
+
+class Model {
+ public:
+  const Specification& specification() const { return specification_; }
+  const MultibodySystem& system() const { return system_; }
+  const WaveField& waves() const { return *waves_; }
+
+  int body_index(const std::string& name) const;     // kWorld for "world"; throws SpecificationError if unknown
+  int drive_index(const std::string& name) const;    // throws SpecificationError if unknown
+  int element_index(const std::string& name) const;  // -1 if there is none
+
+  /// Unstretched length of each wire at the start of the run, m, in the order of the specification.
+  const std::vector<double>& initial_lengths() const { return initial_lengths_; }
+  /// Static equilibrium in calm water with every drive at zero (or the given poses and velocities, if the case does
+  /// not start in equilibrium).
+  const SystemState& initial_state() const { return initial_state_; }
+  /// Joints that lost rows which other joints already imply: their share of the reactions is not determined.
+  const std::vector<std::string>& redundant_joints() const { return redundant_joints_; }
+
+ private:
+  friend class ModelBuilder;
+  Specification specification_;
+  std::shared_ptr<const WaveField> waves_;
+  MultibodySystem system_;
+  std::vector<double> initial_lengths_;
+  std::vector<std::string> redundant_joints_;
+  SystemState initial_state_;
+};
+
+/// Builds the elements, assembles the joints, finds the initial static equilibrium. Throws SpecificationError.
+Model build_model(const Specification& specification);
+
+/// Every channel of the model at a state, by name (see trajectory.h for the names).
+std::map<std::string, double> channel_values(const Model& model, const SystemState& state);
+
+}  // namespace stillhook

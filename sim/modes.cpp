@@ -1,0 +1,152 @@
+#include "sim/modes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kCalm = -1.0;  // s: before the waves start
+constexpr int kMaxIterations = 60;
+constexpr double kTolerance = 1e-6;   // of a frequency, relative
+constexpr double kSlowest = 1e-3;     // rad/s: below this a motion has no restoring stiffness
+constexpr double kNamedShare = 0.15;  // of the kinetic energy: what a label names
+
+struct Eigensystem {
+  VectorX square;  // w^2, ascending
+  MatrixX shape;   // columns, in all coordinates
+};
+
+Eigensystem solve(const MatrixX& K, const MatrixX& M, const MatrixX& Z) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(K, Z.transpose() * M * Z);
+  return {solver.eigenvalues(), Z * solver.eigenvectors()};
+}
+
+// The mode of `in` most like the given one, by the mass-weighted correlation.
+int nearest(const Eigensystem& in, const MatrixX& M, const VectorX& shape) {
+  const VectorX Ms = M * shape;
+  int best = 0;
+  double largest = -1.0;
+  for (int i = 0; i < in.square.size(); ++i) {
+    const VectorX other = in.shape.col(i);
+    const double product = other.dot(Ms), likeness = product * product / other.dot(M * other);
+    if (likeness > largest) largest = likeness, best = i;
+  }
+  return best;
+}
+
+double frequency_of(double square) { return square > kSlowest * kSlowest ? std::sqrt(square) : 0.0; }
+
+std::string label_of(const VectorX& share, const std::vector<RigidBody>& bodies) {
+  static constexpr std::array<const char*, 6> kNames = {" x", " y", " z", " roll", " pitch", " yaw"};
+  std::vector<int> order(share.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return share[a] > share[b]; });
+  std::string label;
+  for (std::size_t i = 0; i < order.size() && i < 3; ++i) {
+    if (i > 0 && share[order[i]] < kNamedShare) break;
+    label += (i > 0 ? ", " : "") + bodies[order[i] / 6].name + kNames[order[i] % 6];
+  }
+  return label;
+}
+
+Mode mode_of(double square, const VectorX& shape, const MatrixX& M, const std::vector<RigidBody>& bodies) {
+  Mode mode;
+  mode.frequency = frequency_of(square);
+  mode.period =
+      mode.frequency > 0.0 ? 2.0 * std::numbers::pi / mode.frequency : std::numeric_limits<double>::infinity();
+  mode.share = shape.cwiseProduct(M * shape) / shape.dot(M * shape);
+  int largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  mode.shape = shape / shape[largest];
+  mode.label = label_of(mode.share, bodies);
+  return mode;
+}
+
+}  // namespace
+
+ModalAnalysis::ModalAnalysis(const Model& model) : model_(model) {
+  const std::vector<BodySpec>& bodies = model.specification().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const HydrodynamicsSpec& spec = bodies[i].hydrodynamics;
+    if (spec.kind != HydrodynamicsSpec::Kind::table) continue;
+    Hull hull;
+    hull.body = static_cast<int>(i);
+    hull.R_WH = heading_rotation(model.initial_state().body[i].R_WB);
+    const auto c = std::make_shared<const HydrodynamicCoefficients>(read_coefficient_file(spec.coefficient_file));
+    hull.excess = [c, cog = bodies[i].cog](double w) {
+      return about_point(added_mass_from_kernels(c->A_inf, c->retardation, w) - c->A_inf, cog);
+    };
+    hulls_.push_back(std::move(hull));
+  }
+}
+
+MatrixX ModalAnalysis::mass_at(double frequency) const {
+  MatrixX M = model_.system().mass();
+  for (const Hull& hull : hulls_) {
+    Matrix6 T = Matrix6::Identity();
+    T.topLeftCorner<3, 3>() = hull.R_WH.transpose();
+    M.block<6, 6>(6 * hull.body, 6 * hull.body) += T.transpose() * hull.excess(frequency) * T;
+  }
+  return M;
+}
+
+std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium) const {
+  const MultibodySystem& system = model_.system();
+  SystemState state = equilibrium;
+  state.t = kCalm;
+  SystemWorkspace work = system.make_workspace();
+  VectorX Q;
+  system.forces(state, 0.0, work, Q);
+  system.jacobian(state, 0.0, work);
+  MatrixX Z = MatrixX::Identity(system.coordinates(), system.coordinates());
+  if (system.constraints() > 0) {
+    MatrixX C_q;
+    system.constraint_jacobian(state, C_q);
+    const Eigen::HouseholderQR<MatrixX> qr(C_q.transpose());
+    Z = MatrixX(qr.householderQ()).rightCols(system.coordinates() - system.constraints());
+  }
+  MatrixX K = -Z.transpose() * work.jacobian.stiffness() * Z;
+  K = (0.5 * (K + K.transpose())).eval();  // friction and winch laws apart it is symmetric in equilibrium
+
+  const Eigensystem start = solve(K, system.mass(), Z);
+  std::vector<Mode> modes;
+  for (int i = 0; i < start.square.size(); ++i) {
+    double square = start.square[i];
+    VectorX shape = start.shape.col(i);
+    MatrixX M = system.mass();
+    bool converged = hulls_.empty() || frequency_of(square) == 0.0;
+    for (int k = 0; k < kMaxIterations && !converged; ++k) {
+      M = mass_at(std::sqrt(std::max(square, kSlowest * kSlowest)));
+      const Eigensystem next = solve(K, M, Z);
+      const int j = nearest(next, M, shape);
+      converged = std::abs(next.square[j] - square) < 2.0 * kTolerance * std::abs(square);
+      square = next.square[j];
+      shape = next.shape.col(j);
+    }
+    modes.push_back(mode_of(square, shape, M, system.bodies));
+    modes.back().converged = converged;
+  }
+  std::stable_sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
+  return modes;
+}
+
+std::vector<Mode> natural_modes(const Model& model, const SystemState& equilibrium) {
+  return ModalAnalysis(model).at(equilibrium);
+}
+
+double period_of(const std::vector<Mode>& modes, int body, int coordinate) {
+  const auto less = [&](const Mode& a, const Mode& b) {
+    return a.share[6 * body + coordinate] < b.share[6 * body + coordinate];
+  };
+  return std::max_element(modes.begin(), modes.end(), less)->period;
+}
+
+}  // namespace stillhook

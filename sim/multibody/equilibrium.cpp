@@ -1,0 +1,118 @@
+#include "sim/multibody/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stillhook {
+namespace {
+
+constexpr int kMaxIterations = 600;
+constexpr double kTolerance = 1e-9;      // out-of-balance force over the largest weight
+constexpr double kSmallestShift = 1e-6;  // 1/s2, against (0.09 rad/s)^2 = 8e-3 of a slow mooring mode
+constexpr double kLargestShift = 20.0;   // 1/s2, above the frequencies of a lift as a whole
+constexpr double kLargestMove = 3.0;     // m a step
+constexpr double kLargestTurn = 0.1;     // rad a step
+
+void move(SystemState& state, const VectorX& xi) {
+  for (std::size_t i = 0; i < state.body.size(); ++i) {
+    state.body[i].p_WC += xi.segment<3>(6 * i);
+    state.body[i].R_WB = orthonormalised(state.body[i].R_WB * exp_rotation(xi.segment<3>(6 * i + 3)));
+  }
+}
+
+// Scales a step back to the largest allowed one; returns the factor.
+double limit(VectorX& xi) {
+  double factor = 1.0;
+  for (int i = 0; i < xi.size(); i += 6) {
+    factor = std::min(factor, kLargestMove / std::max(kLargestMove, xi.segment<3>(i).norm()));
+    factor = std::min(factor, kLargestTurn / std::max(kLargestTurn, xi.segment<3>(i + 3).norm()));
+  }
+  xi *= factor;
+  return factor;
+}
+
+}  // namespace
+
+EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state) {
+  const int n = system.coordinates(), m = system.constraints();
+  SystemWorkspace work = system.make_workspace();
+  for (BodyKinematics& b : state.body) b.v_WC = b.w_B = Vector3::Zero();
+  for (DriveState& d : state.drive) d.rate = 0.0;
+  state.acceleration = VectorX::Zero(n);
+  if (state.lambda.size() != m) state.lambda = VectorX::Zero(m);
+
+  double weight = 1e-3;
+  VectorX scale(n);  // a moment counts as a force at the body's radius of gyration
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const RigidBody& b = system.bodies[i];
+    weight = std::max(weight, b.mass * std::max(system.gravity, 1e-3));
+    scale.segment<3>(6 * i).setOnes();
+    scale.segment<3>(6 * i + 3).setConstant(1.0 / std::max(1e-3, std::sqrt(b.inertia.trace() / (3.0 * b.mass))));
+  }
+  const double lambda_scale = system.mass().trace() / std::max(1, n);
+
+  EquilibriumReport report;
+  MatrixX A(n + m, n + m), C_q;
+  VectorX Q(n), C, b(n + m);
+  double shift = 1.0, last = -1.0;
+  if (static_cast<int>(state.element_state.size()) != system.element_state_size()) system.start_elements(state, work);
+  for (report.iterations = 0; report.iterations < kMaxIterations; ++report.iterations) {
+    system.forces(state, 0.0, work, Q);
+    system.constraint_jacobian(state, C_q);
+    system.constraint_values(state, C);
+    const VectorX out_of_balance = (Q - C_q.transpose() * state.lambda).cwiseProduct(scale) / weight;
+    int worst = 0;
+    report.residual = out_of_balance.cwiseAbs().maxCoeff(&worst);
+    report.worst_body = system.bodies[worst / 6].name;
+    if (!std::isfinite(report.residual)) return report;
+    const double gap = m > 0 ? C.cwiseAbs().maxCoeff() : 0.0;
+    if (report.residual < kTolerance && gap < 1e-10) {
+      report.converged = true;
+      system.settle_elements(state, work);
+      return report;
+    }
+    if (getenv("EQ"))
+      fprintf(stderr, "it %d res %.3e %s gap %.2e shift %.2e\n", report.iterations, report.residual,
+              report.worst_body.c_str(), gap, shift);
+    const double size = report.residual + gap;
+    // Rising faster than it falls, the shift leaves every cycle between two sides of a kink.
+    if (last > 0.0)
+      shift =
+          std::clamp(shift * (size < last ? std::clamp(size / last, 0.1, 0.5) : 6.0), kSmallestShift, kLargestShift);
+    last = size;
+
+    system.jacobian(state, 0.0, work);
+    A.topLeftCorner(n, n) = shift * system.mass() - work.jacobian.stiffness();
+    A.topRightCorner(n, m) = lambda_scale * C_q.transpose();
+    A.bottomLeftCorner(m, n) = lambda_scale * C_q;
+    A.bottomRightCorner(m, m).setZero();
+    b << Q, -lambda_scale * C;
+    const VectorX x = A.partialPivLu().solve(b);
+    if (!x.allFinite()) return report;
+    VectorX xi = x.head(n);
+    const double factor = limit(xi);
+    move(state, xi);
+    state.lambda += factor * (lambda_scale * x.tail(m) - state.lambda);
+  }
+  return report;
+}
+
+double assemble_joints(const MultibodySystem& system, SystemState& state, std::string& joint) {
+  double worst = 0.0;
+  VectorX C;
+  MatrixX C_q;
+  for (int k = 0; k < 20; ++k) {
+    system.constraint_values(state, C);
+    int row = 0;
+    worst = C.size() ? C.cwiseAbs().maxCoeff(&row) : 0.0;
+    if (C.size()) joint = system.row_joint(row);
+    if (worst < 1e-12) break;
+    system.constraint_jacobian(state, C_q);
+    VectorX xi = -C_q.completeOrthogonalDecomposition().solve(C);
+    limit(xi);
+    move(state, xi);
+  }
+  return worst;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,32 @@
+// Static equilibrium: Q(q) - C_q^T lambda = 0, C(q) = 0 with everything at rest, by pseudo-transient Newton steps
+//
+//   [ s M - K   C_q^T ] [ xi     ]   [ Q  ]
+//   [ C_q       0     ] [ lambda ] = [ -C ]
+//
+// s (1/s2) falls with the residual (switched evolution relaxation, Kelley & Keyes 1998), so that contacts and slack
+// wires are passed safely and the end is Newton's method. A small s stays: coordinates without any stiffness (the
+// heading of a body on one wire) rest where they are.
+#pragma once
+
+#include <string>
+
+#include "sim/multibody/system.h"
+
+namespace stillhook {
+
+struct EquilibriumReport {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0.0;   // largest out-of-balance force as a share of the largest body's weight
+  std::string worst_body;  // where it is
+};
+
+/// Moves the bodies of `state` to equilibrium; velocities and accelerations become zero, lambda the reactions, the
+/// elements' states steady (they are started first if the state has none). The elements see the time state.t (use t < 0
+/// for calm water).
+EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state);
+
+/// Moves the bodies as little as possible so that C(q) = 0. Returns the largest remaining row, and its joint.
+double assemble_joints(const MultibodySystem& system, SystemState& state, std::string& joint);
+
+}  // namespace stillhook

@@ -1,0 +1,214 @@
+#include "sim/multibody/hht.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stillhook {
+
+namespace {
+// A kept factorisation serves while each iteration shrinks the correction at least this much.
+constexpr double kSlowRate = 0.25;
+// Taken as the rate of a fresh factorisation until it is known.
+constexpr double kFreshRate = 0.1;
+// The rate of the last step, good as it was, is not taken to be better than this in the next.
+constexpr double kTrustedRate = 0.01;
+// A correction of less than this share of the largest coordinate or acceleration is rounding: it would not get smaller.
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double kGravity = 9.80665;  // m/s2, the measure of accelerations
+// A correction of this size in one step (m, rad) is no longer motion.
+constexpr double kRunaway = 1e3;
+// Time to either side over which start() takes the rate of the acceleration, s: short against a stiff wire's period,
+// long against rounding (1e-14 m * (100 rad/s)^2 / 1e-5 s = 1e-5 m/s3).
+constexpr double kGlance = 1e-5;
+
+// The bodies carried on by dt at constant acceleration, the drives at constant rate.
+void carry_on(SystemState& state, double dt) {
+  state.t += dt;
+  for (DriveState& d : state.drive) d.position += dt * d.rate;
+  for (std::size_t i = 0; i < state.body.size(); ++i) {
+    BodyKinematics& b = state.body[i];
+    const Vector3 a = state.acceleration.segment<3>(6 * i), w_dot = state.acceleration.segment<3>(6 * i + 3);
+    b.p_WC += dt * b.v_WC + 0.5 * dt * dt * a;
+    b.R_WB = orthonormalised(b.R_WB * exp_rotation(dt * b.w_B + 0.5 * dt * dt * w_dot));
+    b.v_WC += dt * a;
+    b.w_B += dt * w_dot;
+  }
+}
+}  // namespace
+
+HhtStepper::HhtStepper(const MultibodySystem& system, const HhtOptions& options)
+    : system_(system),
+      options_(options),
+      beta_((1.0 - options.alpha) * (1.0 - options.alpha) / 4.0),
+      gamma_(0.5 - options.alpha),
+      lambda_scale_(system.mass().trace() / std::max(1, system.coordinates())),
+      work_(system.make_workspace()) {
+  const int n = system.coordinates(), m = system.constraints();
+  F0_ = F1_ = a0_ = jerk_ = VectorX::Zero(n);
+  C_ = VectorX::Zero(m);
+  r_ = delta_ = VectorX::Zero(n + m);
+  C_q_ = MatrixX::Zero(m, n);
+  J_ = MatrixX::Zero(n + m, n + m);
+  turn_.resize(system.bodies.size());
+  lu_ = Eigen::PartialPivLU<MatrixX>(n + m);
+}
+
+void HhtStepper::solve_motion(SystemState& state, VectorX& acceleration, VectorX& lambda, VectorX& F) {
+  const int n = system_.coordinates(), m = system_.constraints();
+  VectorX gamma;
+  system_.forces(state, 0.0, work_, F);
+  system_.constraint_jacobian(state, C_q_);
+  system_.constraint_acceleration(state, gamma);
+  J_.topLeftCorner(n, n) = system_.mass();
+  J_.topRightCorner(n, m) = lambda_scale_ * C_q_.transpose();
+  J_.bottomLeftCorner(m, n) = lambda_scale_ * C_q_;
+  J_.bottomRightCorner(m, m).setZero();
+  r_ << F, lambda_scale_ * gamma;
+  delta_ = J_.partialPivLu().solve(r_);
+  acceleration = delta_.head(n);
+  lambda = lambda_scale_ * delta_.tail(m);
+  F -= C_q_.transpose() * lambda;
+}
+
+void HhtStepper::start(SystemState& state) {
+  solve_motion(state, state.acceleration, state.lambda, F0_);
+  VectorX before, after, lambda, F;
+  for (const double glance : {-kGlance, kGlance}) {
+    SystemState near = state;
+    carry_on(near, glance);
+    solve_motion(near, glance < 0.0 ? before : after, lambda, F);
+  }
+  jerk_ = (after - before) / (2.0 * kGlance);
+  last_h_ = 0.0;
+  factorised_h_ = 0.0;
+  started_ = true;
+}
+
+void HhtStepper::predict(const SystemState& from, double h) {
+  next_.t = from.t + h;
+  next_.phase = from.phase;
+  next_.acceleration = a0_;
+  next_.lambda = from.lambda;
+}
+
+void HhtStepper::apply(const SystemState& from, double h) {
+  for (std::size_t i = 0; i < from.body.size(); ++i) {
+    const BodyKinematics& b0 = from.body[i];
+    BodyKinematics& b1 = next_.body[i];
+    const Vector6 a0 = a0_.segment<6>(6 * i), a1 = next_.acceleration.segment<6>(6 * i);
+    const Vector6 mean = (0.5 - beta_) * a0 + beta_ * a1, speed = (1.0 - gamma_) * a0 + gamma_ * a1;
+    b1.p_WC = b0.p_WC + h * b0.v_WC + h * h * mean.head<3>();
+    b1.v_WC = b0.v_WC + h * speed.head<3>();
+    b1.w_B = b0.w_B + h * speed.tail<3>();
+    turn_[i] = h * b0.w_B + h * h * mean.tail<3>();
+    b1.R_WB = orthonormalised(b0.R_WB * exp_rotation(turn_[i]));
+  }
+}
+
+bool HhtStepper::residual(double h) {
+  ++residuals_;
+  const int n = system_.coordinates(), m = system_.constraints();
+  const double al = options_.alpha;
+  system_.forces(next_, h, work_, F1_);
+  system_.constraint_jacobian(next_, C_q_);
+  system_.constraint_values(next_, C_);
+  F1_.noalias() -= C_q_.transpose() * next_.lambda;
+  r_.head(n) = (al / (1.0 + al)) * F0_ - F1_;
+  r_.head(n).noalias() += (1.0 / (1.0 + al)) * (system_.mass() * next_.acceleration);
+  r_.tail(m) = (lambda_scale_ / (beta_ * h * h)) * C_;
+  if (r_.allFinite()) return true;
+  for (int i = n - 1; i >= 0; --i)
+    if (!std::isfinite(r_[i])) failed_body_ = i / 6;
+  return false;
+}
+
+void HhtStepper::factorise(double h) {
+  ++factorisations_;
+  const int n = system_.coordinates(), m = system_.constraints();
+  system_.jacobian(next_, h, work_);
+  J_.topLeftCorner(n, n) = (1.0 / (1.0 + options_.alpha)) * system_.mass() - (gamma_ * h) * work_.jacobian.damping();
+  // xi = (dp, dtheta): dp = beta h^2 da, dtheta = J_r(turn) beta h^2 dw'
+  for (std::size_t i = 0; i < turn_.size(); ++i) {
+    const int c = 6 * static_cast<int>(i);
+    const Matrix3 J_r = right_jacobian(turn_[i]), turned = (beta_ * h * h) * J_r;
+    J_.block(0, c, n, 3) -= (beta_ * h * h) * work_.jacobian.stiffness().middleCols<3>(c);
+    J_.block(0, c + 3, n, 3).noalias() -= work_.jacobian.stiffness().middleCols<3>(c + 3) * turned;
+    J_.block(n, c, m, 3) = lambda_scale_ * C_q_.middleCols<3>(c);
+    J_.block(n, c + 3, m, 3).noalias() = C_q_.middleCols<3>(c + 3) * Matrix3(lambda_scale_ * J_r);
+  }
+  J_.topRightCorner(n, m) = lambda_scale_ * C_q_.transpose();
+  J_.bottomRightCorner(m, m).setZero();
+  lu_.compute(J_);
+  factorised_h_ = h;
+  rate_ = kFreshRate;
+}
+
+bool HhtStepper::iterate(const SystemState& from, double h, Renew renew) {
+  const int n = system_.coordinates();
+  double last = 0.0;
+  for (int k = 0; k < options_.max_iterations; ++k) {
+    if (!residual(h)) return false;
+    if (renew == Renew::always || (renew == Renew::once && k == 0)) factorise(h);
+    delta_ = lu_.solve(r_);
+    next_.acceleration -= delta_.head(n);
+    next_.lambda -= lambda_scale_ * delta_.tail(system_.constraints());
+    apply(from, h);
+    int worst = 0;
+    const double size = delta_.head(n).cwiseAbs().maxCoeff(&worst);  // m/s2, rad/s2
+    failed_body_ = worst / 6;
+    if (!std::isfinite(size) || beta_ * h * h * size > kRunaway) return false;
+    rate_ = k > 0 ? size / last : std::max(rate_, kTrustedRate);
+    if (size < kRounding * (reach_ / (beta_ * h * h) + next_.acceleration.cwiseAbs().maxCoeff())) return true;
+    // What is left after this correction is about rate/(1 - rate) times it.
+    if (size * rate_ <= kGravity * options_.tolerance * std::max(1.0 - rate_, 0.1)) return true;
+    if (renew != Renew::always && k > 0 && rate_ > kSlowRate) return false;
+    last = size;
+  }
+  return false;
+}
+
+bool HhtStepper::converge(const SystemState& from, double h) {
+  for (const Renew renew : {Renew::never, Renew::once, Renew::always}) {
+    if (renew == Renew::never && factorised_h_ != h) continue;
+    predict(from, h);
+    apply(from, h);
+    if (iterate(from, h, renew)) return true;
+  }
+  return false;
+}
+
+bool HhtStepper::step(SystemState& state, double h, std::span<const DriveState> drives) {
+  if (!started_) start(state);
+  // `state` is left alone until the step has converged: elements prepare on the copy, which still stands at t_n.
+  next_.t = state.t;
+  next_.body = state.body;
+  next_.drive = state.drive;
+  next_.element_state = state.element_state;
+  system_.begin_step(next_, h, work_);
+  next_.drive.assign(drives.begin(), drives.end());
+  reach_ = 1.0;
+  for (const BodyKinematics& b : state.body) reach_ = std::max(reach_, b.p_WC.cwiseAbs().maxCoeff());
+  a0_ = state.acceleration + (options_.alpha * (h - last_h_)) * jerk_;
+  if (!converge(state, h)) {
+    factorised_h_ = 0.0;
+    return false;
+  }
+  failed_body_ = -1;
+  // The forces that open the next step, from the equation just solved: this saves an evaluation, and an error in F0
+  // dies out by al/(1 + al) a step.
+  F0_ *= options_.alpha / (1.0 + options_.alpha);
+  F0_.noalias() += (1.0 / (1.0 + options_.alpha)) * (system_.mass() * next_.acceleration);
+  jerk_ = (next_.acceleration - a0_) / h;
+  last_h_ = h;
+  system_.end_step(next_, h, work_);
+  std::swap(state.body, next_.body);
+  std::swap(state.acceleration, next_.acceleration);
+  std::swap(state.lambda, next_.lambda);
+  std::swap(state.drive, next_.drive);
+  std::swap(state.element_state, next_.element_state);
+  state.t = next_.t;
+  return true;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,107 @@
+#include "sim/operation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/statics.h"
+
+namespace stillhook {
+namespace {
+
+std::string entry_of(const PhaseSpec& phase) { return "operation.phases." + phase.name; }
+
+void check_limits_of(const DriveSpec& drive, const RateProfile& profile, const std::string& entry) {
+  constexpr double kSlack = 1.0 + 1e-9;  // a profile may use its drive's limits to the full
+  if (drive.speed_max > 0.0 && profile.peak_rate() > drive.speed_max * kSlack)
+    throw SpecificationError(entry, "speed",
+                             "drive '" + drive.name + "' is limited to " + std::to_string(drive.speed_max) +
+                                 " per s, the profile needs " + std::to_string(profile.peak_rate()));
+  if (drive.acceleration_max > 0.0 && profile.peak_acceleration() > drive.acceleration_max * kSlack)
+    throw SpecificationError(entry, "ramp",
+                             "drive '" + drive.name + "' is limited to " + std::to_string(drive.acceleration_max) +
+                                 " per s2, the profile needs " + std::to_string(profile.peak_acceleration()) +
+                                 ": a longer ramp or a lower speed is needed");
+}
+
+// Moves the drives of `state` to the end of the phase and returns each move's travel.
+std::vector<double> work_out_travels(const Model& model, const PhaseSpec& spec, SystemState& state) {
+  std::vector<StaticGoal> goals;
+  std::vector<double> before;
+  for (const MoveSpec& move : spec.moves) {
+    const int drive = model.drive_index(move.drive);
+    before.push_back(state.drive[drive].position);
+    if (move.travel) state.drive[drive].position += *move.travel;
+    if (move.goal) goals.push_back({drive, *move.goal, move.goal_value});
+  }
+  solve_static(model, state, goals, entry_of(spec));
+  std::vector<double> travels;
+  for (std::size_t i = 0; i < spec.moves.size(); ++i)
+    travels.push_back(spec.moves[i].travel ? *spec.moves[i].travel
+                                           : state.drive[model.drive_index(spec.moves[i].drive)].position - before[i]);
+  return travels;
+}
+
+}  // namespace
+
+double Operation::planned_duration() const {
+  double sum = 0.0;
+  for (const Phase& phase : phases) sum += phase.duration;
+  return sum;
+}
+
+Operation build_operation(const Model& model) {
+  const Specification& specification = model.specification();
+  Operation operation;
+  SystemState state = model.initial_state();
+  operation.static_poses.push_back(static_pose(model, state, "start"));
+  for (const PhaseSpec& spec : specification.operation.phases) {
+    state.phase = static_cast<int>(operation.phases.size());
+    Phase phase;
+    phase.name = spec.name;
+    phase.stage = spec.stage;
+    phase.wait_for = spec.wait_for;
+    if (spec.wait_for.type == EventSpec::Type::clear_of_contact) {
+      phase.wait_contact = model.element_index(spec.wait_for.contact);
+      if (phase.wait_contact < 0)
+        throw SpecificationError(entry_of(spec), "wait_for", "there is no contact '" + spec.wait_for.contact + "'");
+    }
+    phase.duration = spec.duration;
+    const std::vector<double> travels =
+        spec.moves.empty() ? std::vector<double>{} : work_out_travels(model, spec, state);
+    for (std::size_t i = 0; i < spec.moves.size(); ++i) {
+      const MoveSpec& move = spec.moves[i];
+      const std::string entry = entry_of(spec) + ".moves." + move.drive;
+      Move m;
+      m.drive = model.drive_index(move.drive);
+      m.delay = move.delay;
+      m.background = move.background;
+      if (std::abs(travels[i]) > 0.0) m.profile = RateProfile(move.profile, travels[i], move.speed);
+      check_limits_of(specification.drives[m.drive], m.profile, entry);
+      if (!m.background) phase.duration = std::max(phase.duration, m.delay + m.profile.duration());
+      phase.moves.push_back(std::move(m));
+    }
+    operation.phases.push_back(std::move(phase));
+    operation.static_poses.push_back(static_pose(model, state, spec.name));
+  }
+  return operation;
+}
+
+std::vector<StaticPose> solve_poses(const Model& model) {
+  std::vector<StaticPose> poses;
+  for (const PoseSpec& spec : model.specification().poses) {
+    SystemState state = model.initial_state();
+    std::vector<StaticGoal> goals;
+    for (const auto& setting : spec.drives) state.drive[model.drive_index(setting.drive)].position = setting.position;
+    for (const auto& hold : spec.holds) {
+      CoordinateSpec coordinate;
+      coordinate.joint = hold.joint;
+      goals.push_back({model.drive_index(hold.drive), coordinate, hold.coordinate});
+    }
+    for (const auto& goal : spec.goals) goals.push_back({model.drive_index(goal.drive), goal.coordinate, goal.value});
+    solve_static(model, state, goals, "poses." + spec.name);
+    poses.push_back(static_pose(model, state, spec.name));
+  }
+  return poses;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,44 @@
+// The operation as commands: every phase's moves with their travel worked out from the geometry of static poses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/lifting/profile.h"
+#include "sim/model.h"
+#include "sim/trajectory.h"
+
+namespace stillhook {
+
+struct Move {
+  int drive = 0;
+  RateProfile profile;      // from rest to rest over the travel
+  double delay = 0.0;       // s after the start of the phase
+  bool background = false;  // the phase may end before this move does
+};
+
+struct Phase {
+  std::string name;
+  PhaseSpec::Stage stage = PhaseSpec::Stage::hanging;
+  EventSpec wait_for;
+  int wait_contact = -1;    // element index of the contact waited for
+  double duration = 0.0;    // s, from its start to the end of its foreground moves (and at least the specified time)
+  std::vector<Move> moves;
+};
+
+struct Operation {
+  std::vector<Phase> phases;
+  std::vector<StaticPose> static_poses;  // [0] start, [i + 1] end of phase i with every move finished, calm water
+
+  /// Duration without waiting for events, s.
+  double planned_duration() const;
+};
+
+/// Solves the static poses phase by phase, so that a move with a goal gets the travel that reaches it. Throws
+/// SpecificationError when a goal cannot be reached or a drive's limits are broken.
+Operation build_operation(const Model& model);
+
+/// The reported poses of the specification (Specification::poses), each a static equilibrium.
+std::vector<StaticPose> solve_poses(const Model& model);
+
+}  // namespace stillhook

@@ -1,0 +1,153 @@
+#include "sim/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "sim/multibody/hht.h"
+#include "sim/operation_clock.h"
+#include "sim/recorder.h"
+
+namespace stillhook {
+namespace {
+
+constexpr int kHalvings = 8;            // of a step that does not converge
+constexpr double kProgressEvery = 5.0;  // s, simulated
+constexpr double kLost = 1e5;           // m from the origin: no longer a lift
+
+// One run; its parts share the state.
+class Run {
+ public:
+  Run(const Model& model, const Operation& operation, const RunOptions& options, Trajectory& out)
+      : model_(model),
+        options_(options),
+        out_(out),
+        state_(model.initial_state()),
+        stepper_(model.system(), hht_options(model.specification().solver)),
+        board_(model),
+        recorder_(model, board_, options.record, out),
+        clock_(operation, static_cast<int>(model.specification().drives.size())),
+        drives_(model.specification().drives.size()) {}
+
+  void go() {
+    const SolverSpec& solver = model_.specification().solver;
+    const double h = solver.time_step;
+    const long every = std::max(1L, std::lround(solver.output_interval / h));
+    stepper_.start(state_);
+    clock_.advance(0.0, recorder_);
+    if (clock_.phase() < 0) recorder_.open_phase("run", PhaseSpec::Stage::hanging, 0.0, false);
+    note(h, true);
+    double next_progress = kProgressEvery;
+    for (long k = 1;; ++k) {
+      const double t = k * h;
+      if (done(t - h)) break;
+      if (!advance(t, h)) {
+        out_.status = RunStatus::diverged;
+        break;
+      }
+      clock_.advance(t, recorder_);
+      state_.phase = phase();
+      note(h, k % every == 0);
+      if (t < next_progress || !options_.progress) continue;
+      next_progress += kProgressEvery;
+      if (!options_.progress(t, end_expected(t))) {
+        out_.status = RunStatus::interrupted;
+        out_.message = "interrupted at " + std::to_string(t) + " s";
+        break;
+      }
+    }
+    if (out_.status == RunStatus::not_run) out_.status = RunStatus::completed;
+    recorder_.close(state_.t);
+    out_.residuals = stepper_.residuals();
+    out_.factorisations = stepper_.factorisations();
+  }
+
+ private:
+  static HhtOptions hht_options(const SolverSpec& solver) {
+    HhtOptions options;
+    options.alpha = solver.hht_alpha;
+    options.tolerance = solver.newton_tolerance;
+    return options;
+  }
+
+  int phase() const { return std::max(0, clock_.phase()); }
+
+  bool done(double t) const {
+    const double limit = model_.specification().solver.max_duration;
+    if (limit > 0.0 && t >= limit - 1e-9) return true;
+    return clock_.phase() >= 0 && clock_.finished(t);
+  }
+
+  double end_expected(double t) const {
+    const double limit = model_.specification().solver.max_duration;
+    const double end = clock_.phase() >= 0 ? clock_.expected_end(t) : limit;
+    return limit > 0.0 ? std::min(limit, end) : end;
+  }
+
+  void note(double h, bool sample) {
+    board_.measure(state_, stepper_.workspace(), phase());
+    recorder_.add(state_.t, h, phase(), sample);
+  }
+
+  // To time t in one step of h, or in halves of it where that does not converge.
+  bool advance(double t, double h) {
+    double step = h;
+    int halvings = 0;
+    while (state_.t < t - 1e-9 * h) {
+      // A step that ends within rounding of t keeps its length, and with it the kept factorisation.
+      if (t - state_.t < step * (1.0 - 1e-9)) step = t - state_.t;
+      clock_.drives_at(state_.t + step, drives_);
+      ++out_.steps;
+      if (stepper_.step(state_, step, drives_)) {
+        if (lost()) return false;
+        continue;
+      }
+      if (++halvings > kHalvings) {
+        diverged("Newton's method does not converge");
+        return false;
+      }
+      step *= 0.5;
+    }
+    state_.t = t;  // no drift of the clock over half a million additions
+    return true;
+  }
+
+  bool lost() {
+    for (std::size_t i = 0; i < state_.body.size(); ++i) {
+      if (state_.body[i].p_WC.allFinite() && state_.body[i].p_WC.cwiseAbs().maxCoeff() < kLost) continue;
+      diverged("'" + model_.system().bodies[i].name + "' has left the scene");
+      return true;
+    }
+    return false;
+  }
+
+  void diverged(const std::string& what) {
+    const int body = std::max(0, stepper_.failed_body());
+    out_.message = "diverged at t = " + std::to_string(state_.t) + " s in phase '" +
+                   out_.phases[phase()].name + "': " + what + " (largest correction: body '" +
+                   model_.system().bodies[body].name + "')";
+  }
+
+  const Model& model_;
+  const RunOptions& options_;
+  Trajectory& out_;
+  SystemState state_;
+  HhtStepper stepper_;
+  ChannelBoard board_;
+  Recorder recorder_;
+  OperationClock clock_;
+  std::vector<DriveState> drives_;
+};
+
+}  // namespace
+
+Trajectory simulate(const Model& model, const Operation& operation, const RunOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  Trajectory out;
+  out.static_poses = operation.static_poses;
+  Run(model, operation, options, out).go();
+  out.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return out;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,23 @@
+// Runs an operation on a model.
+#pragma once
+
+#include <functional>
+
+#include "sim/model.h"
+#include "sim/operation.h"
+#include "sim/trajectory.h"
+
+namespace stillhook {
+
+struct RunOptions {
+  /// Called about every 5 s of simulated time with t and the planned end (s); returning false interrupts the run.
+  std::function<bool(double t, double t_end)> progress;
+  /// Keep samples (values) at specification.solver.output_interval; extremes and contacts are kept always.
+  bool record = true;
+};
+
+/// Never throws for numerical trouble: a run that diverges ends with RunStatus::diverged and says where. The same
+/// model, operation and options give the same bits.
+Trajectory simulate(const Model& model, const Operation& operation, const RunOptions& options = {});
+
+}  // namespace stillhook

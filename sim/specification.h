@@ -1,0 +1,306 @@
+// Plain structs that describe a lift: what a case file fills in and build_model() reads. SI and radians throughout;
+// the case reader alone converts units. Names refer to other entries; "world" is the fixed body.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/spatial/pose.h"
+
+namespace stillhook {
+
+/// A specification that cannot be built: which entry ("wires.hoist_port"), which field of it (may be empty), the rule
+/// that is broken and the value, as a sentence.
+class SpecificationError : public std::runtime_error {
+ public:
+  SpecificationError(std::string entry_, std::string field_, const std::string& sentence)
+      : std::runtime_error(entry_ + (field_.empty() ? "" : "." + field_) + ": " + sentence),
+        entry(std::move(entry_)),
+        field(std::move(field_)) {}
+  std::string entry, field;
+};
+
+// ---- sea ------------------------------------------------------------------------------------------------------
+
+struct SeaStateSpec {
+  enum class Type { calm, regular, jonswap, pierson_moskowitz };
+  std::string name;
+  Type type = Type::calm;
+  double amplitude = 0.0;       // m, regular
+  double frequency = 0.0;       // rad/s, regular
+  double phase = 0.0;           // rad, lag of the crest at the world origin at t = 0, regular
+  double significant_height = 0.0;  // m, irregular
+  double peak_period = 0.0;     // s, irregular
+  double gamma = 0.0;           // 1, JONSWAP peakedness; 0 = by the DNV rule from Hs and Tp
+  double heading = 0.0;         // rad, direction the waves travel towards, from +x counter-clockwise
+  double spreading = 0.0;       // exponent n of cos^n; 0 = long-crested
+  int components = 60;          // irregular: number of frequencies
+  int directions = 1;           // irregular: number of directions, > 1 only with spreading
+  int seed = 1;                 // irregular: phases come from this index
+};
+
+struct SeaSpec {
+  std::string active;           // name of the state used
+  double ramp = 30.0;           // s, the waves grow smoothly from nothing over this time
+  double density = 1025.0;      // kg/m3
+  double gravity = 9.80665;     // m/s2
+  double depth = 0.0;           // m, 0 = deep; used by moorings, waves are deep-water
+  std::vector<SeaStateSpec> states;
+};
+
+// ---- bodies ---------------------------------------------------------------------------------------------------
+
+struct HullSpec {
+  enum class Shape { none, box, mesh };
+  enum class FroudeKrylov { pressure, volume };
+  Shape shape = Shape::none;
+  Vector3 size = Vector3::Zero();      // m, length (x), breadth (y), depth (z) of a box
+  Vector3 centre = Vector3::Zero();    // m, centre of the box in B
+  std::string mesh_file;               // resolved path of an STL, OBJ or GDF file
+  double mesh_scale = 1.0;             // metres per unit of the file
+  Vector3 mesh_origin = Vector3::Zero();  // m, position in B of the file's origin
+  double panel_length = 0.0;           // m, target edge of a panel; 0 = automatic
+  FroudeKrylov froude_krylov = FroudeKrylov::pressure;
+};
+
+struct HydrodynamicsSpec {
+  // Where the radiation and diffraction forces come from. `table` = A_inf and retardation functions K(t), and
+  // optionally total excitation X(omega, heading), from a coefficient file.
+  enum class Kind { none, constant, table };
+  Kind kind = Kind::none;
+  Matrix6 added_mass = Matrix6::Zero();     // about Bo in the heading frame; kg, kg m, kg m2 (constant)
+  Matrix6 damping = Matrix6::Zero();        // same, per s (constant)
+  std::string coefficient_file;             // resolved path (table)
+  Vector6 linear_damping = Vector6::Zero();     // viscous, N s/m and N m s, per degree of freedom about the cog
+  Vector6 quadratic_damping = Vector6::Zero();  // viscous, N s2/m2 and N m s2
+  Vector6 critical_fraction = Vector6::Zero();  // viscous, share of critical at the initial equilibrium, heave, roll, pitch only
+};
+
+struct BodySpec {
+  std::string name;
+  double mass = 0.0;                       // kg
+  Vector3 cog = Vector3::Zero();           // m, p_BC
+  Matrix3 inertia = Matrix3::Zero();       // kg m2, about C, axes of B
+  Vector3 position = Vector3::Zero();      // m, p_WB at the start (first guess of the static equilibrium)
+  RollPitchYaw attitude;                   // rad, at the start
+  Vector3 velocity = Vector3::Zero();      // m/s, of Bo in W at the start (only with start = "as_given")
+  Vector3 angular_velocity = Vector3::Zero();  // rad/s, in B at the start
+  HullSpec hull;
+  HydrodynamicsSpec hydrodynamics;
+};
+
+// ---- joints ---------------------------------------------------------------------------------------------------
+
+struct JointSpec {
+  enum class Type { revolute, fixed, spherical, prismatic };
+  std::string name;
+  Type type = Type::revolute;
+  std::string parent, child;               // bodies; parent may be "world"
+  Vector3 point_on_parent = Vector3::Zero();  // m, in the parent's B
+  Vector3 point_on_child = Vector3::Zero();   // m, in the child's B
+  Vector3 axis = Vector3::UnitY();         // in the parent's B; revolute: of rotation, prismatic: of sliding
+  // A driven or sprung joint (revolute: N m/rad, prismatic: N/m); the drive moves the rest position.
+  double stiffness = 0.0;
+  double damping = 0.0;
+  double rest = 0.0;                       // rad or m, coordinate at zero load, relative to the initial pose
+  std::string drive;                       // name of a drive, empty = none
+};
+
+// ---- lifting gear ---------------------------------------------------------------------------------------------
+
+/// Anything that moves by command. Position 0 at the start of the run.
+struct DriveSpec {
+  enum class Kind { winch, ballast, tow, joint };
+  std::string name;
+  Kind kind = Kind::winch;      // winch: m hauled in (+ shortens); ballast: share 0..1; tow: m; joint: rad or m
+  double speed_max = 0.0;       // per s; 0 = unlimited
+  double acceleration_max = 0.0;  // per s2; 0 = unlimited
+};
+
+struct WireSpec {
+  enum class Role { other, hoist, luffing, stay, sling };
+  std::string name;
+  Role role = Role::other;
+  std::string from, to;                    // bodies; "from" carries the upper end or the sheave
+  Vector3 point_from = Vector3::Zero(), point_to = Vector3::Zero();  // m, in B of each
+  double axial_stiffness = 0.0;            // EA, N
+  double damping_ratio = 0.0;              // share of critical of the mass below at the initial stiffness EA/L
+  double damping_mass = 0.0;               // kg, the mass meant by damping_ratio
+  double damping = 0.0;                    // N s/m, instead of damping_ratio
+  double unstretched_length = 0.0;         // m; 0 = from `slack` or `hold_*` below
+  double slack = 0.0;                      // m, unstretched length minus distance of the ends at the start
+  std::string hold_joint;                  // unstretched length such that this joint keeps its initial coordinate in
+                                           // the initial static equilibrium (luffing and stay wires)
+  std::string winch;                       // name of a drive, empty = fixed length
+  double tension_max = 0.0;                // N, limit of the winch (checked, not enforced); 0 = none
+  double breaking_load = 0.0;              // N; 0 = not given
+};
+
+struct TaglineSpec {
+  std::string name;
+  std::string from, to;                    // winch body, controlled body
+  Vector3 point_from = Vector3::Zero(), point_to = Vector3::Zero();  // m, in B of each
+  std::string wire;                        // the hoist wire whose angle is controlled
+  double kp = 0.0;                         // N/rad
+  double kd = 0.0;                         // N s/rad
+  double set_point = 0.0;                  // rad, wanted angle of the hoist wire towards the winch's far side
+  double pretension = 0.0;                 // N
+  double tension_max = 0.0;                // N
+  double speed_max = 0.0;                  // m/s; 0 = unlimited
+  double time_constant = 0.5;              // s
+  double axial_stiffness = 2.0e7;          // EA, N
+  bool active = true;
+  std::string active_from;                 // phase with which the line is connected; empty = always
+};
+
+struct MooringSpec {
+  enum class Type { catenary, linear };
+  std::string name;
+  Type type = Type::catenary;
+  std::string body;
+  Vector3 fairlead = Vector3::Zero();      // m, in B
+  double azimuth = 0.0;                    // rad, direction from the fairlead to the anchor at the initial pose, in W
+  double pretension = 0.0;                 // N, horizontal tension at the initial pose
+  double stiffness = 0.0;                  // N/m, linear only
+  double anchor_distance = 0.0;            // m, horizontal, linear only
+  double length = 0.0;                     // m, unstretched, catenary
+  double weight = 0.0;                     // N/m, in water, catenary
+  double axial_stiffness = 0.0;            // N, catenary
+  double seabed_friction = 0.0;            // 1, catenary
+  std::string tow;                         // drive that moves the anchor, empty = fixed
+  Vector3 tow_direction = Vector3::Zero(); // unit vector in W
+};
+
+/// Corner points of one body against a horizontal rectangle fixed to another.
+struct ContactSpec {
+  std::string name;
+  std::string body;                        // carries the points
+  std::vector<Vector3> points;             // m, in B
+  std::string surface_body;                // carries the rectangle, may be "world"
+  Vector3 surface_centre = Vector3::Zero();   // m, in its B
+  double surface_length = 0.0, surface_breadth = 0.0;  // m, along x and y of its B
+  double stiffness = 0.0;                  // N/m, all points together
+  double damping = 0.0;                    // N s/m, all points together
+  double damping_depth = 0.005;            // m, penetration over which the damping grows to its full value
+  double friction = 0.0;                   // 1
+  enum class Role { other, pickup, target };
+  Role role = Role::other;                 // pickup: re-hits are counted; target: set-down is measured
+  std::string active_from;                 // phase with which it begins to act; empty = always. No force before.
+};
+
+/// A mass of water moved from one tank to another; its weight counts, its inertia does not.
+struct BallastSpec {
+  std::string name;
+  std::string body;
+  double mass = 0.0;                       // kg, moved when the drive stands at 1
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();  // m, in B
+  std::string drive;
+};
+
+// ---- operation ------------------------------------------------------------------------------------------------
+
+/// A scalar measured in the model that a goal can ask for.
+struct CoordinateSpec {
+  std::string body;                        // point of a body ...
+  Vector3 point = Vector3::Zero();         // m, in B
+  int axis = 2;                            // 0 x, 1 y, 2 z in W
+  std::string relative_to;                 // body whose axes and origin are used instead of W; empty = world
+  std::string joint;                       // ... or the coordinate of a joint relative to its initial pose
+  std::string wire;                        // ... or the tension of a wire, N
+};
+
+struct ProfileSpec {
+  enum class Shape { trapezoid, s_curve, knots };
+  Shape shape = Shape::s_curve;
+  double ramp = 10.0;                      // s, from rest to full speed and back
+  std::vector<double> knots;               // relative speeds at equal times, between the two zeros (knots only)
+};
+
+struct MoveSpec {
+  std::string drive;
+  double speed = 0.0;                      // per s, magnitude of the peak speed
+  std::optional<double> travel;            // given travel, with sign ...
+  std::optional<CoordinateSpec> goal;      // ... or such that this coordinate
+  double goal_value = 0.0;                 // reaches this value in static equilibrium at the end of the phase
+  ProfileSpec profile;
+  double delay = 0.0;                      // s after the start of the phase
+  bool background = false;                 // the phase may end before this move
+};
+
+struct EventSpec {
+  enum class Type { none, clear_of_contact };
+  Type type = Type::none;
+  std::string contact;                     // clear_of_contact: no force in it ...
+  double hold = 0.0;                       // s, ... for this long
+  double timeout = 600.0;                  // s, go on after this, with a note in the result
+};
+
+struct PhaseSpec {
+  enum class Stage { on_barge, transfer, hanging, set_down, landed };
+  std::string name;
+  Stage stage = Stage::hanging;
+  double duration = 0.0;                   // s, at least; the moves may need more
+  EventSpec wait_for;                      // before the phase starts
+  std::vector<MoveSpec> moves;
+};
+
+struct OperationSpec {
+  std::string load;                        // the lifted body
+  std::string crane;                       // the vessel whose heading defines off-lead and side-lead
+  Vector3 target = Vector3::Zero();        // m, in W: where the load's target point should stand
+  Vector3 load_reference = Vector3::Zero();  // m, in the load's B: the point that should stand there
+  std::vector<PhaseSpec> phases;
+};
+
+/// A pose to report: joints held at given coordinates by adjusting wires, drives at given positions.
+struct PoseSpec {
+  struct DriveSetting { std::string drive; double position = 0.0; };
+  struct Hold { std::string joint; double coordinate = 0.0; std::string drive; };  // rad relative to the initial pose
+  struct Goal { CoordinateSpec coordinate; double value = 0.0; std::string drive; };
+  std::string name;
+  std::vector<DriveSetting> drives;
+  std::vector<Hold> holds;
+  std::vector<Goal> goals;
+};
+
+/// Two bodies, as boxes or capsules, whose distance is reported.
+struct ClearanceSpec {
+  struct Shape {
+    std::string body;
+    Vector3 from = Vector3::Zero(), to = Vector3::Zero();  // m, in B: axis of a capsule, or opposite corners of a box
+    double radius = 0.0;                                   // m, > 0: capsule; 0: box
+  };
+  std::string name;
+  Shape a, b;
+};
+
+struct SolverSpec {
+  double time_step = 0.05;                 // s
+  double hht_alpha = -0.1;                 // in [-1/3, 0]
+  double newton_tolerance = 1e-4;          // relative, see hht.h
+  double output_interval = 0.2;            // s
+  double max_duration = 0.0;               // s; 0 = until the operation ends
+  bool static_start = true;                // start from static equilibrium instead of the given poses
+};
+
+struct Specification {
+  std::string name;
+  SeaSpec sea;
+  std::vector<BodySpec> bodies;
+  std::vector<JointSpec> joints;
+  std::vector<DriveSpec> drives;
+  std::vector<WireSpec> wires;
+  std::vector<TaglineSpec> taglines;
+  std::vector<MooringSpec> moorings;
+  std::vector<ContactSpec> contacts;
+  std::vector<BallastSpec> ballast;
+  OperationSpec operation;
+  std::vector<PoseSpec> poses;
+  std::vector<ClearanceSpec> clearances;
+  SolverSpec solver;
+};
+
+}  // namespace stillhook

@@ -1,0 +1,304 @@
+// The program as a user meets it: exit codes, streams, folders, Ctrl-C, kill -9 and resume.
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "planner/plan.h"
+
+using namespace stillhook;
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+const std::string kCase = std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml";
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "stillhook-cli-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+  fs::path path;
+};
+
+std::string content(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Starts the program in `folder` with stdout and stderr in files there.
+pid_t start(const Folder& folder, std::vector<std::string> arguments) {
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child > 0) return child;
+  if (chdir(folder.path.c_str()) != 0) _exit(99);
+  const int out = open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(out, STDOUT_FILENO);
+  dup2(err, STDERR_FILENO);
+  arguments.insert(arguments.begin(), STILLHOOK_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& a : arguments) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  execv(argv[0], argv.data());
+  _exit(98);
+}
+
+Result finish(const Folder& folder, pid_t child) {
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(folder / "stdout.txt"),
+          content(folder / "stderr.txt")};
+}
+
+Result run(const Folder& folder, const std::vector<std::string>& arguments) {
+  return finish(folder, start(folder, arguments));
+}
+
+/// Evaluations in the store of a run folder, 0 as long as there is none.
+int stored(const std::string& folder) {
+  if (!fs::exists(folder + "/evaluations.sqlite")) return 0;
+  try {
+    const Case c = read_case(folder + "/case.toml");
+    const Evaluator evaluator(c);
+    EvaluationStore store(folder + "/evaluations.sqlite", store_identity(c), evaluator.problem());
+    return store.size();
+  } catch (const std::exception&) {
+    return 0;  // not written yet
+  }
+}
+
+void wait_for_evaluations(const std::string& folder, int count) {
+  // Generous: the machine may be busy. What is waited for takes a fraction of a second on an idle one.
+  for (int i = 0; i < 6000 && stored(folder) < count; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  REQUIRE(stored(folder) >= count);
+}
+
+}  // namespace
+
+TEST_CASE("help, version and usage") {
+  const Folder folder;
+  CHECK(run(folder, {"--help"}).code == 0);
+  const Result version = run(folder, {"--version"});
+  CHECK(version.code == 0);
+  CHECK_THAT(version.out, Catch::StartsWith("stillhook "));
+  for (const char* verb : {"check", "simulate", "plan", "report", "schema"}) {
+    CHECK_THAT(run(folder, {"--help"}).out, Catch::Contains(verb));
+    CHECK(run(folder, {verb, "--help"}).code == 0);
+  }
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{},
+                                             {"dance"},
+                                             {"simulate"},
+                                             {"simulate", kCase, "--wrong"},
+                                             {"simulate", kCase, "--threads", "0"},
+                                             {"simulate", kCase, "--seed", "3"},  // the active sea is regular
+                                             {"simulate", "missing.toml"},
+                                             {"plan", kCase, "--evaluations", "none"},
+                                             {"plan", kCase, "--resume"},
+                                             {"plan", kCase, "--resume", "--force"},
+                                             {"plan", kCase, "--set", "plan.local_algorithm=bobyqa"},
+                                             {"report", "nowhere"},
+                                             {"check", kCase, "--set", "sea.ramp_s"},
+                                             {"check", kCase, "--set", "sea.ramp_s=-3"},
+                                             {"check", kCase, "--set", "wires.fall.axial_stiffness_kN=-1"}}) {
+    CAPTURE(wrong);
+    const Result result = run(folder, wrong);
+    CHECK(result.code == 2);
+    CHECK(result.out.empty());
+    CHECK_FALSE(result.err.empty());
+  }
+  CHECK_FALSE(fs::exists(folder / "runs"));  // nothing of this leaves a trace
+}
+
+TEST_CASE("check prints the poses and phases, as text and as JSON") {
+  const Folder folder;
+  const Result text = run(folder, {"check", kCase});
+  CHECK(text.code == 0);
+  CHECK_THAT(text.out, Catch::Contains("Hull of barge") && Catch::Contains("hoist_up") && Catch::Contains("valid"));
+  CHECK(text.err.empty());
+  const json document = json::parse(run(folder, {"check", kCase, "--json"}).out);
+  CHECK(document["case"] == "small_lift");
+  CHECK(document["duration_s"] == Approx(20 + 20 + 3 + 20));  // 4 m at 12 m/min is 20 s, plus one ramp of 3 s
+  bool found = false;
+  for (const json& table : document["tables"]) {
+    if (table["title"] != "Hull of barge") continue;
+    found = true;
+    // Archimedes: (1640 + 20 t) / (1.025 * 40 * 20), the tagline's and moorings' vertical pull aside.
+    CHECK(table["rows"][0][1].get<double>() == Approx(1660.0 / 820.0).margin(2e-3));
+  }
+  CHECK(found);
+  CHECK(json::parse(run(folder, {"schema"}).out).contains("properties"));
+}
+
+TEST_CASE("simulate leaves a complete folder, and refuses to overwrite it") {
+  const Folder folder;
+  const Result first = run(folder, {"simulate", kCase, "--json"});
+  CHECK(first.code == 0);
+  const json summary = json::parse(first.out);
+  CHECK(summary == json::parse(content(folder / "runs/small_lift-simulate/summary.json")));
+  CHECK(summary["status"] == "completed");
+  CHECK(summary["simulated_s"] == Approx(63.0).margin(0.1));
+  for (const char* file : {"case.toml", "history.nc", "report.html"})
+    CHECK(fs::exists(folder / ("runs/small_lift-simulate/" + std::string(file))));
+  CHECK(run(folder, {"simulate", kCase}).code == 2);
+  CHECK(run(folder, {"simulate", kCase, "--force"}).code == 0);
+  // The resolved case is a case that gives the same run; the statement is kept.
+  const std::string resolved = folder / "runs/small_lift-simulate/case.toml";
+  CHECK_THAT(content(resolved), Catch::StartsWith("# A 20 t load on one fall"));
+  const json again = json::parse(run(folder, {"simulate", resolved, "--json", "--out", "again"}).out);
+  CHECK(again["metrics"] == summary["metrics"]);
+  CHECK(again["limits"] == summary["limits"]);
+}
+
+TEST_CASE("a violated limit is 3, a soft one is not") {
+  const Folder folder;
+  const Result hard = run(folder, {"simulate", kCase, "--out", "a", "--set", "limits.offlead_max.max=0.5"});
+  CHECK(hard.code == 3);
+  CHECK_THAT(hard.out, Catch::Contains("FAIL"));
+  const Result soft = run(folder, {"simulate", kCase, "--out", "b", "--set", "limits.offlead_max.max=0.5", "--set",
+                                   "limits.offlead_max.hard=false"});
+  CHECK(soft.code == 0);
+  CHECK_THAT(soft.out, Catch::Contains("warning"));
+}
+
+TEST_CASE("the report of a run folder can be rebuilt, for a run and for a plan") {
+  const Folder folder;
+  REQUIRE(run(folder, {"simulate", kCase, "--out", "s"}).code == 0);
+  REQUIRE(run(folder, {"plan", kCase, "--out", "p", "--evaluations", "6"}).code == 0);
+  for (const char* name : {"s", "p"}) {
+    CAPTURE(name);
+    const std::string report = folder / (std::string(name) + "/report.html");
+    const std::string before = content(report);
+    fs::remove(report);
+    CHECK(run(folder, {"report", name}).code == 0);
+    CHECK(fs::exists(report));
+    // Only how long the search took is not known any more.
+    CHECK(std::abs(static_cast<double>(content(report).size()) - static_cast<double>(before.size())) < 200.0);
+    if (name[0] == 's') CHECK(content(report) == before);
+  }
+}
+
+TEST_CASE("plan: better than the baseline, the same with one thread and two, and the plan simulates") {
+  const Folder folder;
+  const Result two = run(folder, {"plan", kCase, "--out", "two", "--threads", "2", "--evaluations", "25", "--json"});
+  CHECK(two.code == 0);
+  const Result one = run(folder, {"plan", kCase, "--out", "one", "--threads", "1", "--evaluations", "25", "--json"});
+  const json a = json::parse(two.out), b = json::parse(one.out);
+  for (const char* key : {"metrics", "limits", "objective", "search", "variables", "status"}) CHECK(a[key] == b[key]);
+  CHECK(content(folder / "one/plan.toml") == content(folder / "two/plan.toml"));
+  CHECK(a["objective"]["plan"].get<double>() < a["objective"]["baseline"].get<double>());
+  CHECK(a["search"]["evaluations"] == 25);
+
+  // The plan, simulated in the scenario that the summary shows, gives the summary's numbers.
+  const Case plan = read_case(folder / "two/plan.toml");
+  for (const std::string heading : {"30.0", "150.0"}) {
+    const json s = json::parse(run(folder, {"simulate", folder / "two/plan.toml", "--json", "--out", "s" + heading,
+                                            "--set", "sea.states.swell.heading_deg=" + heading})
+                                   .out);
+    if (s["metrics"] == a["metrics"]) return;
+  }
+  FAIL("neither scenario gives the metrics of the summary");
+}
+
+TEST_CASE("plan without a feasible point is 3, with the least violation in its folder") {
+  const Folder folder;
+  const Result result =
+      run(folder, {"plan", kCase, "--out", "p", "--evaluations", "5", "--set", "limits.offlead_max.max=0.01"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Catch::Contains("no plan within the limits"));
+  CHECK(fs::exists(folder / "p/plan.toml"));
+}
+
+TEST_CASE("plan: kill -9, resume, same plan, nothing lost and nothing repeated") {
+  const Folder folder;
+  const std::vector<std::string> options = {"--evaluations", "24", "--seed", "3", "--json", "--quiet"};
+  const auto plan = [&](const std::string& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"plan", kCase, "--out", out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const json undisturbed = json::parse(run(folder, plan("whole")).out);
+  const int evaluations = stored(folder / "whole");
+
+  for (const int wanted : {4, 15}) {
+    const pid_t child =
+        start(folder, plan("killed", wanted == 4 ? std::vector<std::string>{} : std::vector<std::string>{"--resume"}));
+    wait_for_evaluations(folder / "killed", wanted);
+    kill(child, SIGKILL);
+    finish(folder, child);
+  }
+  const int kept = stored(folder / "killed");
+  CHECK(kept >= 15);
+  const Result resumed = run(folder, plan("killed", {"--resume"}));
+  CHECK(resumed.code == 0);
+  const json b = json::parse(resumed.out);
+  for (const char* key : {"metrics", "limits", "objective", "search", "variables", "status"})
+    CHECK(undisturbed[key] == b[key]);
+  CHECK(content(folder / "whole/plan.toml") == content(folder / "killed/plan.toml"));
+  CHECK(stored(folder / "killed") == evaluations);
+
+  // Another case is not gone on with.
+  const Result other = run(folder, plan("killed", {"--resume", "--set", "sea.ramp_s=9"}));
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Catch::Contains("another case"));
+  // A larger budget is: the first evaluations are all there.
+  CHECK(run(folder, {"plan", kCase, "--out", "killed", "--seed", "3", "--evaluations", "27", "--resume"}).code == 0);
+}
+
+TEST_CASE("plan: Ctrl-C leaves the best plan so far, exit code 130, and the search goes on with --resume") {
+  const Folder folder;
+  const pid_t child = start(folder, {"plan", kCase, "--out", "p", "--evaluations", "3000", "--json"});
+  wait_for_evaluations(folder / "p", 5);
+  kill(child, SIGINT);
+  const Result interrupted = finish(folder, child);
+  CHECK(interrupted.code == 130);
+  const json summary = json::parse(interrupted.out);
+  CHECK(summary["status"] == "interrupted");
+  CHECK(summary["search"]["evaluations"].get<int>() >= 5);
+  CHECK(fs::exists(folder / "p/plan.toml"));
+  CHECK_NOTHROW(read_case(folder / "p/plan.toml"));
+  const int kept = stored(folder / "p");
+  CHECK(run(folder, {"plan", kCase, "--out", "p", "--evaluations", "8", "--resume"}).code == 0);
+  CHECK(stored(folder / "p") >= kept);
+}
+
+TEST_CASE("simulate: Ctrl-C stops at the next call, with the part that ran in its folder") {
+  const Folder folder;
+  const pid_t child =
+      start(folder, {"simulate", kCase, "--out", "s", "--json", "--set", "operation.phases.settle.duration_s=200000",
+                     "--set", "solver.output_interval_s=50"});
+  for (int i = 0; i < 6000 && !fs::exists(folder / "s/case.toml"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGINT);
+  const Result result = finish(folder, child);
+  CHECK(result.code == 130);
+  CHECK(json::parse(result.out)["status"] == "interrupted");
+  CHECK(fs::exists(folder / "s/history.nc"));
+}
+
+TEST_CASE("NO_COLOR and files get no escape sequences") {
+  const Folder folder;
+  setenv("NO_COLOR", "1", 1);
+  const Result result = run(folder, {"check", "missing.toml"});
+  unsetenv("NO_COLOR");
+  CHECK(result.err.find('\x1b') == std::string::npos);
+  CHECK(run(folder, {"simulate", kCase}).err.find('\x1b') == std::string::npos);
+}

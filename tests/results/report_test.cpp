@@ -1,0 +1,211 @@
+#include "results/report.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "results/files.h"
+#include "results/html.h"
+#include "results/plot.h"
+#include "results/summary.h"
+#include "tests/results/synthetic_lift.h"
+
+using namespace stillhook;
+
+namespace {
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+/// Name of the first element that is closed wrongly or never; empty if every tag has its partner.
+std::string unbalanced(const std::string& html) {
+  std::vector<std::string> open;
+  for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+    if (html[at + 1] == '!') continue;
+    const std::size_t end = html.find('>', at);
+    if (end == std::string::npos) return "<";
+    const bool closing = html[at + 1] == '/';
+    const std::size_t from = at + (closing ? 2 : 1);
+    const std::string name = html.substr(from, html.find_first_of(" />", from) - from);
+    if (name == "meta" || name == "link" || name == "br" || html[end - 1] == '/') continue;
+    if (!closing)
+      open.push_back(name);
+    else if (open.empty() || open.back() != name)
+      return name;
+    else
+      open.pop_back();
+  }
+  return open.empty() ? "" : open.back();
+}
+
+SearchSection a_search(const std::vector<LimitCheck>& checks) {
+  SearchSection search;
+  search.algorithm = "ISRES, then COBYLA";
+  search.status = "The budget is used up.";
+  search.evaluations = 60;
+  search.seed = 1;
+  search.simulation_equivalents = 240;
+  search.wall = 512;
+  search.baseline_objective = 3.21;
+  search.plan_objective = 2.11;
+  search.random_objective = 2.76;
+  search.plan_feasible = search.random_feasible = true;
+  search.terms = {{"sway_rms", "m", 1.0, 0.5, 0.99, 0.61, 1.98, 1.22},
+                  {"duration", "s", 0.2, 1800, 1886, 1700, 0.21, 0.19}};
+  search.variables = {{"taglines.*.kp_kN_per_deg", 0, 100, 20.9, 63.2}};
+  search.baseline_limits = search.plan_limits = checks;
+  search.plan_limits[0].value = 1.02;
+  for (int i = 0; i < 60; ++i) {
+    search.history.push_back({3.3 - 1.2 * (1 - std::exp(-i / 15.0)) + 0.04 * ((i * 7919) % 13), i % 3 != 0});
+    search.random_history.push_back({2.7 + 0.06 * ((i * 104729) % 17), i % 4 == 0});
+  }
+  search.scenarios = {"paper_text, towards 45°", "paper_table1, towards 135°"};
+  return search;
+}
+
+}  // namespace
+
+TEST_CASE("the report is one well-formed file that asks for nothing outside itself") {
+  truth::SyntheticLift lift;
+  lift.trajectory.contacts[0].contact = "deck\"><script>alert(1)</script>";
+  const Metrics metrics = compute_metrics(lift.specification, lift.trajectory);
+  const std::vector<LimitCheck> checks = check_limits(lift.limits, metrics);
+  const SearchSection search = a_search(checks);
+  const ReportData data{"Box & barge",
+                        "Minimise the swing.\n\nSecond paragraph.",
+                        "[sea]\nactive = \"<x>\"\n",
+                        "0.1.0",
+                        lift.specification,
+                        lift.trajectory,
+                        metrics,
+                        checks,
+                        {"Radiation is constant."},
+                        {},
+                        {{"Natural periods", "Calculated.", {"mode", "T, s"}, {{"roll", "8.8"}}}},
+                        &search};
+  const std::string html = report_html(data);
+  if (const char* path = std::getenv("STILLHOOK_REPORT_LOOK")) write_file(path, html);  // to be looked at
+
+  CHECK(unbalanced(html) == "");
+  CHECK(html.find("Content-Security-Policy") != std::string::npos);
+  CHECK(count(html, "<script") == 0);
+  CHECK(count(html, "http") - count(html, "http-equiv") == count(html, "xmlns=\"http://www.w3.org/2000/svg\""));
+  CHECK(count(html, " src=") == 0);
+  CHECK(count(html, "@import") + count(html, "url(") == 0);
+  CHECK(html.find("swell &lt;1 m&gt;") != std::string::npos);  // the sea state's name
+  CHECK(html.size() < 600000);
+
+  // Verdict first, and every part that was asked for.
+  CHECK(html.find("Outside limits: 1 of 8") < html.find("Timeline of the operation"));
+  for (const char* part :
+       {"id=\"timeline\"", "id=\"search\"", "id=\"limits\"", "id=\"procedure\"", "id=\"plots\"", "id=\"metrics\"",
+        "id=\"contacts\"", "id=\"poses\"", "id=\"tables\"", "id=\"assumptions\"", "id=\"case\""})
+    CHECK(count(html, part) == 1);
+  CHECK(html.find("0027/ND Table 5-1, inshore") != std::string::npos);
+  CHECK(html.find("extra roll damping 4.0 % of critical") != std::string::npos);
+  CHECK(html.find("haul in 14.00 m at 5.60 m/min") != std::string::npos);  // 2 * 14 m / 300 s
+  CHECK(html.find("Radiation is constant.") != std::string::npos);
+  CHECK(count(html, "class=\"plot\"") >= 16);
+}
+
+TEST_CASE("a run that failed at once still has a report that says so") {
+  const truth::SyntheticLift lift;
+  Trajectory run;
+  run.status = RunStatus::diverged;
+  run.message = "diverged at t = 0.05 s: body 'load'";
+  const Metrics metrics = compute_metrics(lift.specification, run);
+  const std::vector<LimitCheck> checks = check_limits(lift.limits, metrics);
+  const std::string html = report_html({"", "", "", "0.1.0", lift.specification, run, metrics, checks, {}, {}, {}});
+  CHECK(unbalanced(html) == "");
+  CHECK(html.find("Not completed: diverged") != std::string::npos);
+  CHECK(html.find("body &#39;load&#39;") != std::string::npos);
+}
+
+TEST_CASE("thinning keeps every extreme and the ends; a plot of 20,000 samples stays small") {
+  PlotLine line{"x", {}, {}};
+  for (int i = 0; i < 20000; ++i) {
+    line.time.push_back(0.2 * i);
+    line.value.push_back(std::sin(0.7 * i) + (i == 12345 ? 5.0 : 0.0) - (i == 777 ? 7.0 : 0.0));
+  }
+  const auto points = thin_out(line, 0.0, line.time.back(), 400);
+  CHECK(points.size() <= 4 * 401);
+  CHECK(std::is_sorted(points.begin(), points.end(), [](auto& a, auto& b) { return a.first < b.first; }));
+  const auto [low, high] =
+      std::minmax_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.second < b.second; });
+  CHECK(low->first == line.time[777]);
+  CHECK(high->first == line.time[12345]);
+  CHECK(points.front().first == line.time.front());
+  CHECK(points.back().first == line.time.back());
+
+  Plot plot;
+  plot.title = "A & B <C>";
+  plot.lines = {line, line, line, line};
+  plot.phases = {{"first", 0, 2000}, {"second", 2000, 4000}};
+  const std::string svg = draw_plot(plot);
+  CHECK(svg.size() < 60000);
+  CHECK(unbalanced(svg) == "");
+  CHECK(svg.find("A &amp; B &lt;C&gt;") != std::string::npos);
+}
+
+TEST_CASE("ticks are round, cover the range and are few") {
+  for (const auto& [low, high] :
+       {std::pair{0.0, 1.0}, {-3.2, 7.9}, {73.9, 74.1}, {0.0, 1886.0}, {-1e-6, 1e-6}, {4.9e6, 5.2e6}}) {
+    const std::vector<double> ticks = nice_ticks(low, high, 5);
+    INFO(low << " " << high);
+    CHECK(ticks.front() <= low + 1e-9 * (high - low));
+    CHECK(ticks.back() >= high - 1e-9 * (high - low));
+    CHECK(ticks.size() >= 3);
+    CHECK(ticks.size() <= 8);
+  }
+}
+
+TEST_CASE("a gap breaks the line instead of bridging it; a constant line has an axis") {
+  Plot plot;
+  plot.lines = {{"x", {0, 1, 2, 3, 4}, {1, 1, std::nan(""), 1, 1}}};
+  const std::string svg = draw_plot(plot);
+  const std::size_t path = svg.find("<g transform=\"scale(.1)\"");
+  CHECK(count(svg.substr(path, svg.find("</g>", path) - path), "M") == 2);
+  CHECK(count(svg, "nan") == 0);
+}
+
+TEST_CASE("numbers for people") {
+  CHECK(readable_number(-0.0) == "0");
+  CHECK(readable_number(1234.5678) == "1235");
+  CHECK(readable_number(-0.012345) == "\u22120.01235");
+  CHECK(readable_number(std::nan("")) == "\u2013");
+  CHECK(fixed_number(-0.001, 2) == "0.00");
+  CHECK(fixed_number(-1.005, 1) == "\u22121.0");
+  CHECK(escape_html("a<b&\"c'\x01") == "a&lt;b&amp;&quot;c&#39;\uFFFD");
+}
+
+TEST_CASE("summary.json holds metrics, limits and search, with null for what is not there") {
+  const truth::SyntheticLift lift;
+  const Metrics metrics = compute_metrics(lift.specification, lift.trajectory);
+  std::vector<LimitSpec> limits = lift.limits;
+  limits.push_back({"clearance_min.none", {}, 3.0, ""});
+  Summary summary = summarise(lift.specification, lift.trajectory, metrics, check_limits(limits, metrics));
+  summary.objective = ObjectiveSummary{3.2, 2.1, SearchSection::kNone};
+  summary.search = SearchSummary{"isres", 60, 240.0, 1};
+  const auto json = nlohmann::json::parse(summary_json(summary));
+  CHECK(json["schema_version"] == 1);
+  CHECK(json["status"] == "completed");
+  CHECK(json["simulated_s"] == 960.0);
+  CHECK(json["real_time_factor"] == 640.0);
+  CHECK(json["within_limits"] == false);
+  CHECK(json["metrics"]["rehits"]["value"] == 3.0);
+  CHECK(json["metrics"]["daf_max"]["phase"] == "hoist_up");
+  CHECK(json["metrics"]["daf_max"]["value"].get<double>() == metrics.value("daf_max"));  // the same double
+  CHECK(json["metrics"]["sway_rms"]["time"].is_null());
+  CHECK(json["limits"].size() == limits.size());
+  CHECK(json["limits"].back()["value"].is_null());
+  CHECK(json["limits"].back()["pass"] == false);
+  CHECK(json["objective"]["random_search"].is_null());
+  CHECK(json["search"]["evaluations"] == 60);
+  CHECK_FALSE(json.contains("estimates"));
+}
