@@ -239,10 +239,28 @@ class ModelBuilder {
     const EquilibriumReport report = solve_equilibrium(system(), state());
     state().t = 0.0;
     if (report.converged) return;
+    refuse_what_cannot_float();
     throw SpecificationError("bodies." + report.worst_body, "",
                              "no static equilibrium found from the given pose: out of balance by " +
                                  std::to_string(report.residual) + " of the largest weight after " +
-                                 std::to_string(report.iterations) + " iterations (does it float, hang or stand?)");
+                                 std::to_string(report.iterations) + " iterations; check that everything floats, hangs or stands");
+  }
+
+  // The usual reason for having no equilibrium deserves its own sentence: more weight than the hulls can carry.
+  void refuse_what_cannot_float() const {
+    double weight = 0.0, volume = 0.0;
+    std::string hull;
+    for (const BodySpec& b : spec().bodies) {
+      weight += b.mass;
+      if (b.hull.shape == HullSpec::Shape::none) continue;
+      volume += properties_of(build_hull_mesh(b.hull)).volume;
+      if (hull.empty()) hull = b.name;
+    }
+    if (hull.empty() || weight <= spec().sea.density * volume) return;
+    throw SpecificationError("bodies." + hull, "mass",
+                             "does not float: the bodies weigh " + std::to_string(weight / 1000.0) +
+                                 " t, all hulls together carry at most " +
+                                 std::to_string(spec().sea.density * volume / 1000.0) + " t");
   }
 
   // Newton's method on the lengths of the wires that hold a joint at its initial coordinate, with the wires of given

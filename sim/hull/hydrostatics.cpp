@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim/hull/clipped_panel.h"
+#include "sim/hull/cut_panels.h"
 #include "sim/hull/mesh_file.h"
 #include "sim/hull/panel_strips.h"
 
@@ -25,45 +26,6 @@ struct HeadIntegral {
   // int h r x n dS.
   Vector3 r_cross_n() const { return {rn(1, 2) - rn(2, 1), rn(2, 0) - rn(0, 2), rn(0, 1) - rn(1, 0)}; }
 };
-
-// Panels that the surface cuts, four at a time, one to a lane. Each begins with the corner that is alone: the only wet
-// one, or the only dry one.
-constexpr int kLanes = 4;
-using Lanes = Eigen::Array<double, kLanes, 1>;
-
-class CutPanels {
- public:
-  bool add(const Panel& panel, int lone) {
-    for (int c = 0; c < 3; ++c) corner[c][count] = panel.corner[(lone + c) % 3];
-    for (int axis = 0; axis < 3; ++axis) S[axis][count] = panel.S_B[axis];
-    return ++count == kLanes;
-  }
-  /// Lanes left over repeat the first one without its area.
-  void fill() {
-    for (; count < kLanes; ++count)
-      for (int i = 0; i < 3; ++i) {
-        corner[i][count] = corner[i][0];
-        S[i][count] = 0.0;
-      }
-  }
-  Lanes gathered(const double* values, int c) const {
-    return {values[corner[c][0]], values[corner[c][1]], values[corner[c][2]], values[corner[c][3]]};
-  }
-  int count = 0;
-  int corner[3][kLanes];
-  Lanes S[3];  // m2
-};
-
-// A HeadIntegral for each lane.
-struct LaneIntegrals {
-  Lanes n[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-  Lanes rn[3][3] = {{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()},
-                    {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()},
-                    {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()}};
-};
-
-// The corner that differs from the other two, by the bits of clipped_panel::wet_corners.
-constexpr int kLoneCorner[8] = {0, 0, 1, 2, 2, 1, 0, 0};
 
 // No crest is higher and no trough deeper.
 double largest_elevation(const WaveField& waves) {

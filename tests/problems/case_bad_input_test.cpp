@@ -1,9 +1,14 @@
 // The corpus of broken cases: each is told its sentence, at its place, and nothing else crashes on the way.
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -100,6 +105,26 @@ TEST_CASE("every broken case is told its sentence at its place", "[case][bad_inp
     }
     CHECK(found);
   }
+}
+
+TEST_CASE("the program tells each broken case on stderr and ends with 2", "[case][bad_input]") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("stillhook bad input " + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  for (const char* mesh : {"open.obj", "inverted.obj"}) fs::copy_file(kFolder + "/" + mesh, folder / mesh);
+  const std::string file = (folder / "bad.toml").string(), messages = (folder / "stderr").string();
+  const std::string command =
+      std::string(STILLHOOK_PROGRAM) + " check '" + file + "' > /dev/null 2> '" + messages + "'";
+  for (const Broken& b : corpus()) {
+    INFO(b.name);
+    std::ofstream(file, std::ios::binary) << b.text;
+    const int status = std::system(command.c_str());
+    CHECK(WEXITSTATUS(status) == 2);
+    const std::string said = text_of(messages);
+    INFO(said);
+    CHECK(said.find(b.expect) != std::string::npos);
+  }
+  fs::remove_all(folder);
 }
 
 TEST_CASE("huge, deep and binary input is refused at once", "[case][bad_input]") {

@@ -33,6 +33,17 @@ double period(const std::vector<Mode>& modes, const char* body, Coordinate c) {
   return period_of(modes, lift().model.body_index(body), c);
 }
 
+// Both booms luffing together, with the load: among the modes of 1 to 3 s the one that moves the load's height most
+// (the booms against each other, 1.66 s, tilt it).
+double booms_on_their_wires(const std::vector<Mode>& modes) {
+  const int z = 6 * lift().model.body_index("load") + kZ;
+  const Mode* best = nullptr;
+  for (const Mode& m : modes)
+    if (m.period > 1.0 && m.period < 3.0 && (best == nullptr || m.share[z] > best->share[z])) best = &m;
+  REQUIRE(best != nullptr);
+  return best->period;
+}
+
 void check_sane(const std::vector<Mode>& modes) {
   CHECK(modes.size() == 22);  // 7 bodies less 4 hinges
   for (const Mode& m : modes) {
@@ -65,7 +76,7 @@ TEST_CASE("natural periods: the load at lift-off, hoisted, at set-down") {
   CHECK(period(set_down, "load", kY) == Approx(17.7).epsilon(0.05));
   // Vertical: booms luffing on their wires with the load, and the load on its falls. 5 %: booms' inertia and wires.
   CHECK(period(lift_off, "load", kZ) == Approx(0.65).epsilon(0.05));
-  CHECK(period(lift_off, "boom_port", kX) == Approx(1.61).epsilon(0.05));
+  CHECK(booms_on_their_wires(lift_off) == Approx(1.61).epsilon(0.05));
   // The fastest, the backstays on their stay wires.
   CHECK(lift_off.back().period == Approx(0.23).margin(0.02));
 }
