@@ -4,6 +4,7 @@
 
 #include "planner/text_number.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/immersion.h"
 
 namespace stillhook {
 namespace {
@@ -12,6 +13,55 @@ namespace {
 Vector3 keel_point(const HullSpec& hull) {
   const MeshProperties box = properties_of(build_hull_mesh(hull));
   return {0.5 * (box.low.x() + box.high.x()), 0.5 * (box.low.y() + box.high.y()), box.low.z()};
+}
+
+/// Mass and first moment of what a vessel carries.
+struct Burden {
+  double mass = 0.0;                 // kg
+  Vector3 moment = Vector3::Zero();  // kg m, about Wo
+  void add(double m, const Vector3& p) {
+    mass += m;
+    moment += m * p;
+  }
+};
+
+/// Bodies joined to the hull without a break, the hull included.
+std::vector<bool> joined_to(const Model& model, int hull) {
+  std::vector<bool> joined(model.system().bodies.size(), false);
+  joined[hull] = true;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const Joint& j : model.system().joints) {
+      const int p = j.on_parent.body, c = j.on_child.body;
+      if (p == kWorld || joined[p] == joined[c]) continue;
+      joined[p] = joined[c] = grown = true;
+    }
+  }
+  return joined;
+}
+
+/// What the hull carries in a pose: its joined bodies; what hangs from them on wires, at the upper ends; what stands on
+/// them, at its centre of gravity.
+Burden burden_of(const Model& model, const StaticPose& pose, int hull) {
+  const Specification& s = model.specification();
+  const std::vector<bool> joined = joined_to(model, hull);
+  const auto carried = [&](const std::string& body) { return body != "world" && joined[model.body_index(body)]; };
+  Burden burden;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i)
+    if (joined[i]) burden.add(s.bodies[i].mass, pose.bodies[i] * s.bodies[i].cog);
+  for (const WireSpec& w : s.wires) {
+    if (!carried(w.from) || carried(w.to) || w.to == "world") continue;
+    const Vector3 upper = pose.bodies[model.body_index(w.from)] * w.point_from;
+    const Vector3 lower = pose.bodies[model.body_index(w.to)] * w.point_to;
+    const double vertical = pose.values.at(w.name + ".tension") * (upper - lower).normalized().z();
+    burden.add(vertical / s.sea.gravity, upper);
+  }
+  for (const ContactSpec& c : s.contacts) {
+    if (!carried(c.surface_body) || carried(c.body)) continue;
+    const int body = model.body_index(c.body);
+    burden.add(pose.values.at(c.name + ".force") / s.sea.gravity, pose.bodies[body] * s.bodies[body].cog);
+  }
+  return burden;
 }
 
 }  // namespace
@@ -24,15 +74,24 @@ std::vector<ReportTable> vessel_tables(const Model& model, const std::vector<Sta
     if (bodies[i].hull.shape == HullSpec::Shape::none) continue;
     ReportTable table;
     table.title = "Hull of " + bodies[i].name;
-    table.note = "Draft at the middle of the hull; heel + port side up, trim + bow down.";
-    table.header = {"pose", "draft m", "heel deg", "trim deg", "x m", "y m", "z m", "heading deg"};
+    table.note =
+        "Draft at the middle of the hull; heel + port side up, trim + bow down. GM with hanging loads at their upper "
+        "ends; "
+        "tanks count as solid.";
+    table.header = {"pose", "draft m", "heel deg", "trim deg",   "GM transverse m", "GM longitudinal m",
+                    "x m",  "y m",     "z m",      "heading deg"};
+    const Mesh mesh = build_hull_mesh(bodies[i].hull);
     const Vector3 keel = keel_point(bodies[i].hull);
     for (const StaticPose& pose : poses) {
       const Pose& X_WB = pose.bodies[i];
       const RollPitchYaw attitude = roll_pitch_yaw(X_WB.R);
+      const Burden burden = burden_of(model, pose, static_cast<int>(i));
+      const MetacentricHeights GM = metacentric_heights(immersion_of(mesh, X_WB), burden.mass,
+                                                        burden.moment / burden.mass, model.specification().sea.density);
       table.rows.push_back({pose.name, cell(-(X_WB * keel).z(), 3), cell(attitude.roll / kDegree, 3),
-                            cell(attitude.pitch / kDegree, 3), cell(X_WB.p.x(), 2), cell(X_WB.p.y(), 2),
-                            cell(X_WB.p.z(), 3), cell(attitude.yaw / kDegree, 2)});
+                            cell(attitude.pitch / kDegree, 3), cell(GM.transverse, 2), cell(GM.longitudinal, 1),
+                            cell(X_WB.p.x(), 2), cell(X_WB.p.y(), 2), cell(X_WB.p.z(), 3),
+                            cell(attitude.yaw / kDegree, 2)});
     }
     tables.push_back(std::move(table));
   }

@@ -16,12 +16,12 @@
 namespace stillhook {
 namespace {
 
-constexpr double kJointGap = 0.05;   // m, apart at the given poses: rounding in a case file, not a mistake
-constexpr double kCalm = -1.0;       // s, before the waves start
-constexpr double kAngleHeld = 1e-7;  // rad
+constexpr double kJointGap = 0.05;     // m, apart at the given poses: rounding in a case file, not a mistake
+constexpr double kCalm = -1.0;         // s, before the waves start
+constexpr double kAngleHeld = 1e-7;    // rad
 constexpr double kLengthProbe = 1e-3;  // m
 constexpr int kHoldRounds = 20;
-constexpr double kLoose = 2.0;         // length over distance of a wire that is out of the way
+constexpr double kLoose = 2.0;  // length over distance of a wire that is out of the way
 
 }  // namespace
 
@@ -32,8 +32,8 @@ class ModelBuilder {
   Model build() {
     place_bodies();
     const SeaSpec& sea = spec().sea;
-    const auto active = std::find_if(sea.states.begin(), sea.states.end(),
-                                     [&](const SeaStateSpec& s) { return s.name == sea.active; });
+    const auto active =
+        std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
     model_.waves_ = std::make_shared<const WaveField>(
         active == sea.states.end() ? WaveField() : build_wave_field(*active, sea.gravity, sea.ramp));
     join_bodies();
@@ -95,9 +95,9 @@ class ModelBuilder {
     std::string joint;
     const double left = assemble_joints(system(), state(), joint);
     if (left > 1e-9)
-      throw SpecificationError("joints." + joint, "",
-                               "cannot be closed together with the other joints: " + std::to_string(left) +
-                                   " m or rad remain");
+      throw SpecificationError(
+          "joints." + joint, "",
+          "cannot be closed together with the other joints: " + std::to_string(left) + " m or rad remain");
     model_.redundant_joints_ = system().select_independent_rows(state());
   }
 
@@ -105,12 +105,11 @@ class ModelBuilder {
   void choose_lengths() {
     for (const WireSpec& w : spec().wires) {
       const double distance = end_distance(w);
-      if (distance < 1e-6)
-        throw SpecificationError("wires." + w.name, "", "its ends coincide at the initial pose");
+      if (distance < 1e-6) throw SpecificationError("wires." + w.name, "", "its ends coincide at the initial pose");
       double length = w.unstretched_length > 0.0 ? w.unstretched_length : distance + w.slack;
       if (length <= 0.0)
-        throw SpecificationError("wires." + w.name, "slack", "leaves no length: the ends are " +
-                                                                 std::to_string(distance) + " m apart");
+        throw SpecificationError("wires." + w.name, "slack",
+                                 "leaves no length: the ends are " + std::to_string(distance) + " m apart");
       model_.initial_lengths_.push_back(length);
     }
   }
@@ -123,8 +122,9 @@ class ModelBuilder {
     o.to = point(w.to, w.point_to);
     o.axial_stiffness = w.axial_stiffness;
     o.unstretched_length = model_.initial_lengths_[i];
-    o.damping = w.damping > 0.0 ? w.damping
-                                : wire_damping(w.damping_ratio, w.damping_mass, w.axial_stiffness, o.unstretched_length);
+    o.damping = w.damping > 0.0
+                    ? w.damping
+                    : wire_damping(w.damping_ratio, w.damping_mass, w.axial_stiffness, o.unstretched_length);
     o.drive = drive_or_none(w.winch);
     if (!spec().operation.crane.empty()) o.crane = model_.body_index(spec().operation.crane);
     return std::make_unique<const Wire>(o);
@@ -243,7 +243,8 @@ class ModelBuilder {
     throw SpecificationError("bodies." + report.worst_body, "",
                              "no static equilibrium found from the given pose: out of balance by " +
                                  std::to_string(report.residual) + " of the largest weight after " +
-                                 std::to_string(report.iterations) + " iterations; check that everything floats, hangs or stands");
+                                 std::to_string(report.iterations) +
+                                 " iterations; check that everything floats, hangs or stands");
   }
 
   // The usual reason for having no equilibrium deserves its own sentence: more weight than the hulls can carry.
@@ -296,7 +297,8 @@ class ModelBuilder {
 
   double end_distance(const WireSpec& w) const {
     return (motion_of(point(w.from, w.point_from), state().instant()).p -
-            motion_of(point(w.to, w.point_to), state().instant()).p).norm();
+            motion_of(point(w.to, w.point_to), state().instant()).p)
+        .norm();
   }
 
   void hold_joints(const std::vector<std::size_t>& wires, const std::vector<const Joint*>& joints) {
@@ -341,11 +343,12 @@ class ModelBuilder {
   void refuse_slack_supports() {
     for (std::size_t i = 0; i < spec().wires.size(); ++i) {
       const WireSpec& w = spec().wires[i];
-      const bool supports = w.role == WireSpec::Role::luffing || w.role == WireSpec::Role::stay ||
-                            w.role == WireSpec::Role::sling;
+      const bool supports =
+          w.role == WireSpec::Role::luffing || w.role == WireSpec::Role::stay || w.role == WireSpec::Role::sling;
       const auto& element = static_cast<const Wire&>(*system().elements[first_wire_ + i]);
       if (supports && element.tension(state().instant()) <= 0.0)
-        throw SpecificationError("wires." + w.name, "", "is slack in the initial equilibrium, but it has to hold its body");
+        throw SpecificationError("wires." + w.name, "",
+                                 "is slack in the initial equilibrium, but it has to hold its body");
     }
   }
 
@@ -390,8 +393,8 @@ class ModelBuilder {
       if (stiffness[dof] <= 0.0)
         throw SpecificationError("bodies." + body.name, "critical_fraction",
                                  "the hull is not stable in this degree of freedom, so it has no critical damping");
-      const double frequency = natural_frequency(stiffness[dof], inertia[dof],
-                                                 [&](double w) { return added_mass(w)(dof, dof); });
+      const double frequency =
+          natural_frequency(stiffness[dof], inertia[dof], [&](double w) { return added_mass(w)(dof, dof); });
       inertia[dof] = stiffness[dof] / (frequency * frequency);
     }
     return critical_damping(body.hydrodynamics.critical_fraction, stiffness, inertia);
@@ -400,8 +403,7 @@ class ModelBuilder {
   // -dQ/dxi of the hull's pressure alone, about its C, in calm water.
   Matrix6 hydrostatic_stiffness(int hull) {
     const int e = model_.element_index(spec().bodies[hull].name + ".hydrostatics");
-    if (e < 0)
-      throw SpecificationError("bodies." + spec().bodies[hull].name, "critical_fraction", "needs a hull");
+    if (e < 0) throw SpecificationError("bodies." + spec().bodies[hull].name, "critical_fraction", "needs a hull");
     SystemWorkspace work = system().make_workspace();
     SystemState calm = state();
     calm.t = kCalm;

@@ -26,7 +26,8 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
     const bool winch = d.kind == DriveSpec::Kind::winch;
     channels_.push_back({d.name + ".position", winch || d.kind == DriveSpec::Kind::tow ? "m" : "1",
                          winch ? "length hauled in" : "position of the drive"});
-    channels_.push_back({d.name + ".rate", winch || d.kind == DriveSpec::Kind::tow ? "m/s" : "1/s", "rate of the drive"});
+    channels_.push_back(
+        {d.name + ".rate", winch || d.kind == DriveSpec::Kind::tow ? "m/s" : "1/s", "rate of the drive"});
   }
   for (const Joint& j : system.joints) {
     if (j.type == JointSpec::Type::prismatic)
@@ -90,7 +91,8 @@ Recorder::Recorder(const Model& model, const ChannelBoard& board, bool samples, 
     const auto channels = elements[w.element]->channels();
     const auto at = [&](const std::string& quantity) {
       for (std::size_t i = 0; i < channels.size(); ++i)
-        if (channels[i].name == spec.name + "." + quantity) return board.element_offset(w.element) + static_cast<int>(i);
+        if (channels[i].name == spec.name + "." + quantity)
+          return board.element_offset(w.element) + static_cast<int>(i);
       return -1;
     };
     w.force = at("force");

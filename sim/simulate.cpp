@@ -123,9 +123,8 @@ class Run {
 
   void diverged(const std::string& what) {
     const int body = std::max(0, stepper_.failed_body());
-    out_.message = "diverged at t = " + std::to_string(state_.t) + " s in phase '" +
-                   out_.phases[phase()].name + "': " + what + " (largest correction: body '" +
-                   model_.system().bodies[body].name + "')";
+    out_.message = "diverged at t = " + std::to_string(state_.t) + " s in phase '" + out_.phases[phase()].name +
+                   "': " + what + " (largest correction: body '" + model_.system().bodies[body].name + "')";
   }
 
   const Model& model_;

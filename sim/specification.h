@@ -280,7 +280,7 @@ struct ClearanceSpec {
 struct SolverSpec {
   double time_step = 0.05;                 // s
   double hht_alpha = -0.1;                 // in [-1/3, 0]
-  double newton_tolerance = 1e-4;          // relative, see hht.h
+  double newton_tolerance = 1e-7;          // share of g, see hht.h
   double output_interval = 0.2;            // s
   double max_duration = 0.0;               // s; 0 = until the operation ends
   bool static_start = true;                // start from static equilibrium instead of the given poses

@@ -7,14 +7,14 @@
 namespace stillhook {
 namespace {
 
-constexpr double kCalm = -1.0;       // s: before the waves start
+constexpr double kCalm = -1.0;  // s: before the waves start
 // Drive steps for the slope of a goal, m: a small one where the drive has a grip; larger ones, either way, where it
 // first has to take up slack. A slope below kNoGrip is no grip.
 constexpr double kProbes[] = {1e-3, 0.3, -0.3, 3.0, -3.0};
 constexpr double kNoGrip = 5e-3;
 constexpr double kLargestStep = 3.0;  // of a drive in one iteration, m
 constexpr int kMaxIterations = 60;
-constexpr int kHalvings = 6;          // of a step of the drives that leaves the region where an equilibrium is found
+constexpr int kHalvings = 6;  // of a step of the drives that leaves the region where an equilibrium is found
 
 std::string describe(const CoordinateSpec& c) {
   if (!c.joint.empty()) return "coordinate of joint '" + c.joint + "'";

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <functional>
 #include <memory>
 #include <vector>
 

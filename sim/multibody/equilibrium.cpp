@@ -71,9 +71,6 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
       system.settle_elements(state, work);
       return report;
     }
-    if (getenv("EQ"))
-      fprintf(stderr, "it %d res %.3e %s gap %.2e shift %.2e\n", report.iterations, report.residual,
-              report.worst_body.c_str(), gap, shift);
     const double size = report.residual + gap;
     // Rising faster than it falls, the shift leaves every cycle between two sides of a kink.
     if (last > 0.0)
