@@ -1,13 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/element_builder.h"
 #include "sim/hull/damping.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
-#include "sim/lifting/ballast.h"
-#include "sim/lifting/contact.h"
-#include "sim/lifting/mooring.h"
-#include "sim/lifting/tagline.h"
 #include "sim/lifting/wire.h"
 #include "sim/model.h"
 #include "sim/multibody/equilibrium.h"
@@ -54,13 +51,6 @@ class ModelBuilder {
   SystemState& state() { return model_.initial_state_; }
   const SystemState& state() const { return model_.initial_state_; }
 
-  BodyPoint point(const std::string& body, const Vector3& p_B) const {
-    const int i = model_.body_index(body);
-    return {i, i == kWorld ? p_B : Vector3(p_B - spec().bodies[i].cog)};
-  }
-
-  int drive_or_none(const std::string& name) const { return name.empty() ? -1 : model_.drive_index(name); }
-
   void place_bodies() {
     if (spec().bodies.empty()) throw SpecificationError("bodies", "", "a model needs at least one body");
     for (const BodySpec& b : spec().bodies) {
@@ -104,7 +94,7 @@ class ModelBuilder {
   // Unstretched lengths where the specification leaves them to the initial pose.
   void choose_lengths() {
     for (const WireSpec& w : spec().wires) {
-      const double distance = end_distance(w);
+      const double distance = build_.end_distance(w);
       if (distance < 1e-6) throw SpecificationError("wires." + w.name, "", "its ends coincide at the initial pose");
       double length = w.unstretched_length > 0.0 ? w.unstretched_length : distance + w.slack;
       if (length <= 0.0)
@@ -114,91 +104,9 @@ class ModelBuilder {
     }
   }
 
-  std::unique_ptr<const ForceElement> wire(std::size_t i) const {
-    const WireSpec& w = spec().wires[i];
-    WireOptions o;
-    o.name = w.name;
-    o.from = point(w.from, w.point_from);
-    o.to = point(w.to, w.point_to);
-    o.axial_stiffness = w.axial_stiffness;
-    o.unstretched_length = model_.initial_lengths_[i];
-    o.damping = w.damping > 0.0
-                    ? w.damping
-                    : wire_damping(w.damping_ratio, w.damping_mass, w.axial_stiffness, o.unstretched_length);
-    o.drive = drive_or_none(w.winch);
-    if (!spec().operation.crane.empty()) o.crane = model_.body_index(spec().operation.crane);
-    return std::make_unique<const Wire>(o);
-  }
-
   void rebuild_wires() {
-    for (std::size_t i = 0; i < spec().wires.size(); ++i) system().elements[first_wire_ + i] = wire(i);
-  }
-
-  std::unique_ptr<const ForceElement> tagline(const TaglineSpec& t) const {
-    TaglineOptions o;
-    o.name = t.name;
-    o.from = point(t.from, t.point_from);
-    o.to = point(t.to, t.point_to);
-    for (const WireSpec& w : spec().wires)
-      if (w.name == t.wire) {
-        o.hoist_upper = point(w.from, w.point_from);
-        o.hoist_lower = point(w.to, w.point_to);
-      }
-    o.kp = t.kp;
-    o.kd = t.kd;
-    o.set_point = t.set_point;
-    o.pretension = t.pretension;
-    o.tension_max = t.tension_max;
-    o.speed_max = t.speed_max;
-    o.time_constant = t.time_constant;
-    o.axial_stiffness = t.axial_stiffness;
-    o.active = t.active;
-    o.active_from_phase = phase_index(t.active_from, "taglines." + t.name);
-    return std::make_unique<const Tagline>(o, state().instant());
-  }
-
-  std::unique_ptr<const ForceElement> mooring(const MooringSpec& m) const {
-    MooringOptions o;
-    o.name = m.name;
-    o.type = m.type == MooringSpec::Type::catenary ? MooringOptions::Type::catenary : MooringOptions::Type::linear;
-    o.fairlead = point(m.body, m.fairlead);
-    o.azimuth = m.azimuth;
-    o.pretension = m.pretension;
-    o.line.length = m.length;
-    o.line.weight = m.weight;
-    o.line.axial_stiffness = m.axial_stiffness;
-    o.line.seabed_friction = m.seabed_friction;
-    o.depth = spec().sea.depth;
-    o.stiffness = m.stiffness;
-    o.anchor_distance = m.anchor_distance;
-    o.tow_drive = drive_or_none(m.tow);
-    if (o.tow_drive >= 0) o.tow_direction = m.tow_direction.normalized();
-    return std::make_unique<const Mooring>(o, state().instant());
-  }
-
-  std::unique_ptr<const ForceElement> contact(const ContactSpec& c) const {
-    ContactOptions o;
-    o.name = c.name;
-    o.body = model_.body_index(c.body);
-    for (const Vector3& p : c.points) o.points.push_back(point(c.body, p).c_B);
-    o.surface = point(c.surface_body, c.surface_centre);
-    o.length = c.surface_length;
-    o.breadth = c.surface_breadth;
-    o.stiffness = c.stiffness;
-    o.damping = c.damping;
-    o.damping_depth = c.damping_depth;
-    o.friction = c.friction;
-    o.active_from_phase = phase_index(c.active_from, "contacts." + c.name);
-    return std::make_unique<const Contact>(o);
-  }
-
-  // Index of the phase an element begins to act with, 0 when none is named.
-  int phase_index(const std::string& name, const std::string& entry) const {
-    if (name.empty()) return 0;
-    const auto& phases = spec().operation.phases;
-    for (std::size_t i = 0; i < phases.size(); ++i)
-      if (phases[i].name == name) return static_cast<int>(i);
-    throw SpecificationError(entry, "active_from", "there is no phase '" + name + "'");
+    for (std::size_t i = 0; i < spec().wires.size(); ++i)
+      system().elements[first_wire_ + i] = build_.wire(spec().wires[i], model_.initial_lengths_[i]);
   }
 
   void add_elements() {
@@ -210,25 +118,18 @@ class ModelBuilder {
         elements.push_back(build_hydrostatics(b, static_cast<int>(i), model_.waves_, spec().sea));
     }
     first_wire_ = elements.size();
-    for (std::size_t i = 0; i < spec().wires.size(); ++i) elements.push_back(wire(i));
-    for (const TaglineSpec& t : spec().taglines) elements.push_back(tagline(t));
-    for (const MooringSpec& m : spec().moorings) elements.push_back(mooring(m));
-    for (const ContactSpec& c : spec().contacts) elements.push_back(contact(c));
-    for (const BallastSpec& b : spec().ballast) {
-      BallastOptions o;
-      o.name = b.name;
-      o.from = point(b.body, b.from);
-      o.to = point(b.body, b.to);
-      o.mass = b.mass;
-      o.gravity = spec().sea.gravity;
-      o.drive = model_.drive_index(b.drive);
-      elements.push_back(std::make_unique<const Ballast>(o));
-    }
+    for (std::size_t i = 0; i < spec().wires.size(); ++i)
+      elements.push_back(build_.wire(spec().wires[i], model_.initial_lengths_[i]));
+    for (const TaglineSpec& t : spec().taglines) elements.push_back(build_.tagline(t));
+    for (const MooringSpec& m : spec().moorings) elements.push_back(build_.mooring(m));
+    for (const ContactSpec& c : spec().contacts) elements.push_back(build_.contact(c));
+    for (const BallastSpec& b : spec().ballast) elements.push_back(build_.ballast(b));
     for (std::size_t j = 0; j < spec().joints.size(); ++j) {
       const JointSpec& joint = spec().joints[j];
       if (joint.stiffness > 0.0 || joint.damping > 0.0 || !joint.drive.empty())
         elements.push_back(std::make_unique<const JointDrive>(joint.name, system().joints[j], joint.stiffness,
-                                                              joint.damping, joint.rest, drive_or_none(joint.drive)));
+                                                              joint.damping, joint.rest,
+                                                              build_.drive_or_none(joint.drive)));
     }
     system().finish();
     system().select_independent_rows(state());
@@ -282,7 +183,7 @@ class ModelBuilder {
     for (std::size_t i = 0; i < spec().wires.size(); ++i) {
       if (!by_slack(i)) continue;
       const WireSpec& w = spec().wires[i];
-      model_.initial_lengths_[i] = end_distance(w) + w.slack;
+      model_.initial_lengths_[i] = build_.end_distance(w) + w.slack;
       taut = taut || w.slack < 0.0;
     }
     rebuild_wires();
@@ -293,12 +194,6 @@ class ModelBuilder {
 
   bool by_slack(std::size_t i) const {
     return spec().wires[i].unstretched_length <= 0.0 && spec().wires[i].hold_joint.empty();
-  }
-
-  double end_distance(const WireSpec& w) const {
-    return (motion_of(point(w.from, w.point_from), state().instant()).p -
-            motion_of(point(w.to, w.point_to), state().instant()).p)
-        .norm();
   }
 
   void hold_joints(const std::vector<std::size_t>& wires, const std::vector<const Joint*>& joints) {
@@ -439,6 +334,7 @@ class ModelBuilder {
   }
 
   Model model_;
+  ElementBuilder build_{model_};
   std::size_t first_wire_ = 0;
 };
 

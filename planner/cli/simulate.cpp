@@ -38,9 +38,9 @@ int exit_code(const RunResult& run) {
 }
 
 void print_run(const Summary& summary, const RunFolder& folder) {
-  fmt::print("{}: {} in sea {}, {:.0f} s simulated in {:.2f} s ({:.0f} times real time)\n\n{}\n{}\n{}\n",
-             summary.case_name, status_name(summary.status), summary.sea, summary.simulated, summary.wall,
-             summary.simulated / summary.wall, metrics_text(summary.metrics), limits_text(summary.limits),
+  fmt::print("{}: {} in {}, {:.0f} s simulated in {:.2f} s ({:.0f} times real time)\n\n{}\n{}\n{}\n", summary.case_name,
+             status_name(summary.status), summary.sea.empty() ? "calm water" : "sea " + summary.sea, summary.simulated,
+             summary.wall, summary.simulated / summary.wall, metrics_text(summary.metrics), limits_text(summary.limits),
              "Report: " + folder.report());
 }
 
