@@ -5,6 +5,7 @@
 #include "planner/text_number.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/immersion.h"
+#include "sim/multibody/assembly.h"
 
 namespace stillhook {
 namespace {
@@ -25,26 +26,11 @@ struct Burden {
   }
 };
 
-/// Bodies joined to the hull without a break, the hull included.
-std::vector<bool> joined_to(const Model& model, int hull) {
-  std::vector<bool> joined(model.system().bodies.size(), false);
-  joined[hull] = true;
-  for (bool grown = true; grown;) {
-    grown = false;
-    for (const Joint& j : model.system().joints) {
-      const int p = j.on_parent.body, c = j.on_child.body;
-      if (p == kWorld || joined[p] == joined[c]) continue;
-      joined[p] = joined[c] = grown = true;
-    }
-  }
-  return joined;
-}
-
 /// What the hull carries in a pose: its joined bodies; what hangs from them on wires, at the upper ends; what stands on
 /// them, at its centre of gravity.
 Burden burden_of(const Model& model, const StaticPose& pose, int hull) {
   const Specification& s = model.specification();
-  const std::vector<bool> joined = joined_to(model, hull);
+  const std::vector<bool> joined = jointed_to(model.system(), hull);
   const auto carried = [&](const std::string& body) { return body != "world" && joined[model.body_index(body)]; };
   Burden burden;
   for (std::size_t i = 0; i < s.bodies.size(); ++i)
@@ -76,8 +62,7 @@ std::vector<ReportTable> vessel_tables(const Model& model, const std::vector<Sta
     table.title = "Hull of " + bodies[i].name;
     table.note =
         "Draft at the middle of the hull; heel + port side up, trim + bow down. GM with hanging loads at their upper "
-        "ends; "
-        "tanks count as solid.";
+        "ends; tanks count as solid.";
     table.header = {"pose", "draft m", "heel deg", "trim deg",   "GM transverse m", "GM longitudinal m",
                     "x m",  "y m",     "z m",      "heading deg"};
     const Mesh mesh = build_hull_mesh(bodies[i].hull);

@@ -7,6 +7,7 @@
 #include "sim/hull/hydrostatics.h"
 #include "sim/lifting/wire.h"
 #include "sim/model.h"
+#include "sim/multibody/assembly.h"
 #include "sim/multibody/equilibrium.h"
 #include "sim/multibody/joint_drive.h"
 
@@ -271,7 +272,7 @@ class ModelBuilder {
     Vector6 inertia;
     inertia << Vector3::Constant(body.mass), body.inertia.diagonal();
     const Vector3 C = state().body[hull].p_WC;
-    const std::vector<bool> rigid = jointed_to(hull);
+    const std::vector<bool> rigid = jointed_to(system(), hull);
     for (std::size_t i = 0; i < rigid.size(); ++i) {
       if (!rigid[i] || static_cast<int>(i) == hull) continue;
       const RigidBody& b = system().bodies[i];
@@ -307,19 +308,6 @@ class ModelBuilder {
     system().elements[e]->add_forces(calm.instant(), 0.0, m, work.forces);
     system().elements[e]->add_jacobian(calm.instant(), 0.0, m, work.jacobian);
     return -work.jacobian.stiffness().block<6, 6>(6 * hull, 6 * hull);
-  }
-
-  std::vector<bool> jointed_to(int body) const {
-    std::vector<bool> rigid(spec().bodies.size(), false);
-    rigid[body] = true;
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const Joint& j : model_.system_.joints) {
-        if (j.on_parent.body == kWorld || rigid[j.on_parent.body] == rigid[j.on_child.body]) continue;
-        rigid[j.on_parent.body] = rigid[j.on_child.body] = grown = true;
-      }
-    }
-    return rigid;
   }
 
   void start() {
