@@ -4,9 +4,9 @@
 
 namespace stillhook {
 
-PreparedRun prepare_run(const Case& c, const Specification& specification) {
+PreparedRun prepare_run(const Case& c, const Specification& specification, const HydroProgress& progress) {
   try {
-    return PreparedRun(specification);
+    return PreparedRun(specification, progress);
   } catch (const SpecificationError& error) {
     throw located(c, error);
   }
@@ -19,7 +19,10 @@ RunResult run_lift(const PreparedRun& prepared, const std::vector<LimitSpec>& li
     if (progress) progress(t, t_end);
     return !(stop && stop->load());
   };
-  return judged(prepared.model.specification(), simulate(prepared.model, prepared.operation, options), limits);
+  RunResult result =
+      judged(prepared.model.specification(), simulate(prepared.model, prepared.operation, options), limits);
+  result.warnings = prepared.model.warnings();
+  return result;
 }
 
 RunResult judged(const Specification& specification, Trajectory trajectory, const std::vector<LimitSpec>& limits) {
@@ -37,6 +40,7 @@ Summary summary_of(const RunResult& run, const Case& c, const std::string& verb)
   summary.verb = verb;
   summary.sea = run.specification.sea.active;
   summary.program_version = kVersion;
+  summary.warnings = run.warnings;
   return summary;
 }
 

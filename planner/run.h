@@ -17,6 +17,7 @@ struct RunResult {
   Trajectory trajectory;
   Metrics metrics;
   std::vector<LimitCheck> limits;
+  std::vector<std::string> warnings;  // of the model
 
   /// Completed and no hard limit violated.
   bool passed() const { return within_limits(metrics, limits); }
@@ -24,15 +25,15 @@ struct RunResult {
 
 /// A lift built and its operation worked out, ready to simulate. Throws SpecificationError.
 struct PreparedRun {
-  explicit PreparedRun(const Specification& specification)
-      : model(build_model(specification)), operation(build_operation(model)) {}
+  explicit PreparedRun(const Specification& specification, const HydroProgress& progress = {})
+      : model(build_model(specification, progress)), operation(build_operation(model)) {}
   Model model;
   Operation operation;
 };
 
 /// The specification, which is the case's or a change of it, ready to simulate. Throws CaseError with the place in the
-/// case file when it cannot be built.
-PreparedRun prepare_run(const Case& c, const Specification& specification);
+/// case file when it cannot be built. `progress` hears of a panel computation, if there has to be one.
+PreparedRun prepare_run(const Case& c, const Specification& specification, const HydroProgress& progress = {});
 
 /// Simulates and judges. `stop`, when set from outside, interrupts at the next call of `progress` (t and planned end,
 /// s), which may be empty.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <vector>
 
 namespace stillhook {
 namespace {
@@ -16,6 +17,13 @@ constexpr std::array kFiles = {"case.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
                                "evaluations.sqlite-shm"};
+
+/// coefficients-<set>.csv and the like.
+bool is_coefficient_file(const fs::path& file) {
+  const std::string name = file.filename().string(), ending = file.extension().string();
+  return name.starts_with("coefficients-") &&
+         (ending == ".csv" || ending == ".h5" || ending == ".1" || ending == ".3" || ending == ".hst");
+}
 
 bool holds_a_run(const fs::path& path) {
   return fs::exists(path / "case.toml") || fs::exists(path / "summary.json") || fs::exists(path / "evaluations.sqlite");
@@ -34,6 +42,12 @@ void prepare(const fs::path& path, RunFolder::Mode mode) {
       if (occupied && !holds_a_run(path))
         throw UsageError(name + ": holds files but no run of stillhook; --force does not touch it, use another --out");
       for (const char* file : kFiles) fs::remove(path / file);
+      if (occupied) {
+        std::vector<fs::path> former;
+        for (const auto& entry : fs::directory_iterator(path))
+          if (is_coefficient_file(entry.path())) former.push_back(entry.path());
+        for (const fs::path& file : former) fs::remove(file);
+      }
       break;
     case RunFolder::Mode::resume:
       if (!exists) throw UsageError(name + ": does not exist, there is nothing to resume");

@@ -1,5 +1,6 @@
 // The folder that a run leaves: case.toml, summary.json, history.nc, report.html and, for searches, plan.toml and
-// evaluations.sqlite. Every file but the store is written whole or not at all.
+// evaluations.sqlite; for hydro coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at
+// all.
 #pragma once
 
 #include <stdexcept>

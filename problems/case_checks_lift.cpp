@@ -292,6 +292,10 @@ class LiftCheck {
       report("solver", "output_interval_s",
              fmt::format("must be at least time_step_s {:.6g}, got {:.6g}", spec_.solver.time_step,
                          spec_.solver.output_interval));
+    if (!spec_.joints.empty() && !(spec_.solver.hht_alpha < 0.0))
+      report("solver", "hht_alpha",
+             fmt::format("must be < 0 with joints, whose multipliers ring without numerical damping, got {:.6g}",
+                         spec_.solver.hht_alpha));
     if (spec_.operation.phases.empty() && !(spec_.solver.max_duration > 0.0))
       report("operation", "",
              "has no phases: give [[operation.phases]], or solver.max_duration_s for a run without them");

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
+#include "problems/search/nlopt_search.h"
 #include "results/metrics.h"
 
 namespace stillhook {
@@ -18,6 +20,8 @@ class PlanCheck {
     for (const ObjectiveTerm& term : case_.plan.objective)
       wants_metric("plan.objective." + as_step(term.metric), term.metric);
     check_plan_as_a_whole();
+    check_algorithm("global_algorithm", case_.plan.global_algorithm, true);
+    check_algorithm("local_algorithm", case_.plan.local_algorithm, false);
     for (const VariableSpec& variable : case_.plan.variables) check_variable(variable);
     for (const ScenarioSpec& scenario : case_.plan.scenarios) check_scenario(scenario);
   }
@@ -47,6 +51,14 @@ class PlanCheck {
     const bool has_variables = !case_.plan.variables.empty(), has_terms = !case_.plan.objective.empty();
     if (has_variables && !has_terms) report("plan", "objective", "has no terms: there is nothing to minimise");
     if (has_terms && !has_variables) report("plan", "variables", "has no keys: there is nothing to search over");
+  }
+
+  void check_algorithm(const std::string& key, const std::string& name, bool global) {
+    if (name == "none") return;
+    const bool constrained = std::any_of(case_.limits.begin(), case_.limits.end(),
+                                         [](const LimitSpec& limit) { return limit.hard && (limit.max || limit.min); });
+    if (const std::string fault = algorithm_fault(name, global, constrained); !fault.empty())
+      report("plan", key, fault);
   }
 
   void check_variable(const VariableSpec& v) {

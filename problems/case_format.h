@@ -22,6 +22,7 @@ const Table& operation_table();
 const Table& pose_table();
 const Table& clearance_table();
 const Table& solver_table();
+const Table& panel_method_table();
 const Table& limit_table();
 const Table& plan_table();
 

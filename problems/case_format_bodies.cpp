@@ -140,8 +140,23 @@ const Table& hydrodynamics_table() {
         "bodies.hydrodynamics",
         "Radiation and diffraction of a hull, and viscous damping. About the body's origin, in the heading frame.");
     t.choice<decltype(&S::kind), S::Kind>(
-        "kind", &S::kind, {{"none", S::Kind::none}, {"constant", S::Kind::constant}, {"table", S::Kind::table}},
-        "No radiation, constant added mass and damping, or a coefficient file with retardation functions.");
+        "kind", &S::kind,
+        {{"none", S::Kind::none},
+         {"constant", S::Kind::constant},
+         {"table", S::Kind::table},
+         {"panels", S::Kind::panels},
+         {"database", S::Kind::database}},
+        "No radiation; constant added mass and damping; a coefficient file of this program; the panel method on the "
+        "body's hull; WAMIT (.1 with .3, .hst) or BEMIO (.h5) output.");
+    t.choice<decltype(&S::radiation), S::RadiationModel>(
+         "radiation", &S::radiation,
+         {{"automatic", S::RadiationModel::automatic},
+          {"reduced", S::RadiationModel::reduced},
+          {"retardation", S::RadiationModel::retardation},
+          {"direct", S::RadiationModel::direct}},
+         "Radiation in the time domain: a passive state space, convolution with retardation functions, or the panel "
+         "method marched along. `automatic` is `retardation` for a table, else `reduced`.")
+        .only_when("kind", {"table", "panels", "database"});
     const std::vector<std::string> constant = {"constant"};
     t.numbers("added_mass_t", {3}, diagonal_setter(&S::added_mass, 0), unit::t, not_negative(), "Surge, sway, heave.")
         .only_when("kind", constant)
@@ -172,8 +187,26 @@ const Table& hydrodynamics_table() {
         .one_of("damping");
     t.file("coefficient_file", &S::coefficient_file,
            "Added mass at infinite frequency, retardation functions, excitation.")
-        .only_when("kind", {"table"})
+        .only_when("kind", {"table", "database"})
         .require();
+    t.vector("database_origin_m", &S::database_origin, unit::m, any_value(),
+             "The body's origin in the frame of the database, whose z = 0 is the still water.")
+        .only_when("kind", {"database"});
+    t.number("database_length_m", &S::database_length, unit::m, positive(), "WAMIT's ULEN.")
+        .only_when("kind", {"database"});
+    t.boolean("port_starboard", &S::port_starboard, "The headings 0 to 180 deg of the database are mirrored.")
+        .only_when("kind", {"database"});
+    t.number("panel_length_m", &S::panel_length, unit::m, positive(), "Longest panel of the hull.")
+        .only_when("kind", {"panels"})
+        .absent("an eighth of the breadth, less in short waves");
+    t.text("coupled_with", &S::coupled_with, "Body whose hull and this one feel each other's waves.")
+        .only_when("kind", {"panels"})
+        .names(Reference::body)
+        .absent("none");
+    t.text("coupled_until", &S::coupled_until, "Phase with whose start the coupling ends.")
+        .only_when("kind", {"panels"})
+        .names(Reference::phase)
+        .absent("the end");
     add_viscous_damping(t);
     return t.build();
   }();
@@ -181,6 +214,35 @@ const Table& hydrodynamics_table() {
 }
 
 }  // namespace
+
+const Table& panel_method_table() {
+  static const Table table = [] {
+    using S = PanelMethodSpec;
+    TableOf<S> t("panel_method", "How coefficients of hulls are computed and what is accepted of them.");
+    t.number("lowest_rad_per_s", &S::lowest, unit::rad_per_s, between(0.05, 2.0), "Lowest frequency.");
+    t.number("highest_rad_per_s", &S::highest, unit::rad_per_s, between(0.3, 5.0), "Highest frequency.");
+    t.integer("frequencies", &S::frequencies, between(20.0, 200.0), "How many are computed, evenly in the logarithm.");
+    t.integer("headings", &S::headings, between(4.0, 360.0), "Wave directions around the circle.")
+        .absent("as many as the shortest waves need");
+    t.number("refinement", &S::refinement, unit::one, between(0.25, 4.0), "Every panel is divided by this.");
+    t.number("direct_step_s", &S::direct_step, unit::s, positive(), "Time step of radiation = \"direct\".");
+    t.number("direct_lowest_rad_per_s", &S::direct_lowest, unit::rad_per_s, between(0.1, 3.0),
+             "Longest wave that the water surface of radiation = \"direct\" is made for.");
+    t.number("direct_highest_rad_per_s", &S::direct_highest, unit::rad_per_s, between(0.2, 4.0),
+             "Shortest wave that it is made for.");
+    t.number("fit_tolerance", &S::fit_tolerance, unit::one, between(0.001, 0.2),
+             "Of radiation = \"reduced\": rms error of each entry over the band.");
+    t.text("accept_failed_checks", &S::accepted_checks,
+           "Self-checks of coefficients that may fail, by name, with commas in between.")
+        .absent("none");
+    t.choice<decltype(&S::beyond), S::Beyond>(
+        "beyond", &S::beyond, {{"refuse", S::Beyond::refuse}, {"cut", S::Beyond::cut}},
+        "A sea with energy beyond the coefficients: refused, or its waves there act without diffraction and the report "
+        "says how much.");
+    return t.build();
+  }();
+  return table;
+}
 
 const Table& sea_table() {
   static const Table table = [] {

@@ -308,8 +308,12 @@ const Table& plan_table() {
     t.choice<decltype(&S::aggregate), S::Aggregate>("aggregate", &S::aggregate,
                                                     {{"mean", S::Aggregate::mean}, {"worst", S::Aggregate::worst}},
                                                     "Of the objective over scenarios; limits hold in each.");
-    t.text("global_algorithm", &S::global_algorithm, "Algorithm of the first part, an NLopt name in lower case.");
-    t.text("local_algorithm", &S::local_algorithm, "Algorithm of the second part.");
+    t.text("global_algorithm", &S::global_algorithm,
+           "Algorithm of the first part, of NLopt: `isres`, `orig_direct`, `orig_direct_l`; without hard limits also `crs2`, "
+           "`esch`, `direct`, `direct_l`; or `none`.");
+    t.text("local_algorithm", &S::local_algorithm,
+           "Algorithm of the second part, of NLopt: `cobyla`; without hard limits also `bobyqa`, `sbplx`, "
+           "`neldermead`; or `none`.");
     t.number("global_share", &S::global_share, unit::one, between(0.0, 1.0),
              "Share of the evaluations for the first part.");
     t.integer("evaluations", &S::evaluations, Range{1, 1000000, false}, "Budget of evaluations.");
@@ -332,6 +336,8 @@ const Table& case_table() {
     t.text("title", &S::title, "A line for reports.").absent("the name");
     t.table("sea", spec(&Specification::sea), &sea_table, "The water and its waves.").absent("calm, deep sea water");
     t.tables("bodies", spec(&Specification::bodies), "name", &body_table, "Rigid bodies.").require();
+    t.table("panel_method", spec(&Specification::panel_method), &panel_method_table, "Coefficients of hulls.")
+        .absent("defaults");
     t.tables("joints", spec(&Specification::joints), "name", &joint_table, "Joints.").absent("none");
     t.tables("drives", spec(&Specification::drives), "name", &drive_table, "Drives.").absent("none");
     t.tables("wires", spec(&Specification::wires), "name", &wire_table, "Wires.").absent("none");

@@ -39,6 +39,13 @@ std::string statement(const ReportData& data) {
   return out;
 }
 
+std::string warnings(const ReportData& data) {
+  if (data.warnings.empty()) return {};
+  std::string out = "<div class=\"verdict warn\"><b>To be known</b><ul>";
+  for (const std::string& warning : data.warnings) out += "<li>" + escape_html(warning) + "</li>";
+  return out + "</ul></div>";
+}
+
 std::string cost(const ReportData& data) {
   const Trajectory& run = data.trajectory;
   const double simulated = run.phases.empty() ? 0.0 : run.phases.back().end - run.phases.front().start;
@@ -89,7 +96,7 @@ std::string report_html(const ReportData& data) {
       "aria-label=\"Contents\">{}</nav>{}</main>\n"
       "<footer>stillhook {} · {} · {}</footer></body></html>\n",
       escape_html(data.program_version), title, report_style(), title,
-      escape_html(sea_sentence(data.specification.sea)), verdict_part(data), nav, body,
+      escape_html(sea_sentence(data.specification.sea)), verdict_part(data) + warnings(data), nav, body,
       escape_html(data.program_version), escape_html(data.specification.name), cost(data));
 }
 

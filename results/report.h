@@ -67,6 +67,7 @@ struct ReportData {
   std::vector<StaticPose> poses;   // the poses the case asks to report
   std::vector<ReportTable> tables;
   const SearchSection* search = nullptr;
+  std::vector<std::string> warnings = {};  // what must be known before the results are used, one sentence each
 };
 
 /// The whole page.

@@ -178,6 +178,8 @@ std::string gear_sentences(const Specification& s) {
     const HydrodynamicsSpec& h = body.hydrodynamics;
     const char* radiation = h.kind == HydrodynamicsSpec::Kind::constant ? "constant added mass and damping"
                             : h.kind == HydrodynamicsSpec::Kind::table ? "retardation functions from a coefficient file"
+                            : h.kind == HydrodynamicsSpec::Kind::database ? "coefficients from a database"
+                            : h.kind == HydrodynamicsSpec::Kind::panels ? "coefficients from the panel method"
                                                                        : "no radiation forces";
     out += fmt::format("<li>{}: {}, {} Froude–Krylov model; extra roll damping {} % of critical.</li>",
                        escape_html(readable_name(body.name)), radiation,

@@ -95,6 +95,7 @@ std::string summary_json(const Summary& summary) {
   document["sea"] = summary.sea;
   document["status"] = status_name(summary.status);
   document["message"] = summary.message;
+  document["warnings"] = summary.warnings;
   document["within_limits"] = within_limits(summary.metrics, summary.limits);
   const LimitCheck* governing = governing_check(summary.limits);
   document["governing"] = governing ? Json(governing->metric) : Json(nullptr);

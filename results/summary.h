@@ -55,6 +55,7 @@ struct Summary {
   std::optional<SearchSummary> search;
   std::vector<VariableSummary> variables;
   std::vector<EstimateSummary> estimates;  // fits
+  std::vector<std::string> warnings;       // what must be known before the numbers are used, one sentence each
 };
 
 /// "completed", "interrupted", "diverged", "not_run".

@@ -5,6 +5,7 @@
 #include "sim/hull/damping.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/parting_hydrodynamics.h"
 #include "sim/lifting/wire.h"
 #include "sim/model.h"
 #include "sim/multibody/assembly.h"
@@ -25,7 +26,9 @@ constexpr double kLoose = 2.0;  // length over distance of a wire that is out of
 
 class ModelBuilder {
  public:
-  explicit ModelBuilder(const Specification& specification) { model_.specification_ = specification; }
+  ModelBuilder(const Specification& specification, const HydroProgress& progress) : progress_(progress) {
+    model_.specification_ = specification;
+  }
 
   Model build() {
     place_bodies();
@@ -248,20 +251,95 @@ class ModelBuilder {
     }
   }
 
-  // Hydrodynamics come last: the share of critical damping is of the modes about the equilibrium.
+  // Hydrodynamics come last: coefficients are those of the hulls as they float, and the share of critical damping is of
+  // the modes about the equilibrium.
   void add_hydrodynamics() {
-    for (std::size_t i = 0; i < spec().bodies.size(); ++i) {
-      const BodySpec& b = spec().bodies[i];
-      const int body = static_cast<int>(i);
-      const double heading = roll_pitch_yaw(state().body[i].R_WB).yaw;
-      Vector6 critical = Vector6::Zero();
-      if (!b.hydrodynamics.critical_fraction.isZero()) critical = critical_part(body);
-      const Mesh mesh = b.hull.shape == HullSpec::Shape::none ? Mesh{} : build_hull_mesh(b.hull);
-      if (auto element = build_hydrodynamics(b, body, heading, mesh, model_.waves_, spec().sea, critical))
-        system().elements.push_back(std::move(element));
-    }
+    const std::vector<BodySpec>& bodies = spec().bodies;
+    std::vector<Mesh> meshes;
+    for (const BodySpec& b : bodies)
+      meshes.push_back(b.hull.shape == HullSpec::Shape::none ? Mesh{} : build_hull_mesh(b.hull));
+    model_.coefficients_.resize(bodies.size());
+    std::vector<HydrodynamicsGroup> groups;
+    for (const std::vector<std::size_t>& hulls : coupled_groups()) groups.push_back(prepare_group(hulls, meshes));
+    // The elements only now: the shares of critical damping were found with the system as it was laid out.
+    for (const HydrodynamicsGroup& group : groups)
+      if (auto element = element_of(group)) system().elements.push_back(std::move(element));
     system().finish();
     system().select_independent_rows(state());
+  }
+
+  /// Every body once: alone, or with the one it is coupled with.
+  std::vector<std::vector<std::size_t>> coupled_groups() const {
+    const std::vector<BodySpec>& bodies = spec().bodies;
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<bool> taken(bodies.size(), false);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const std::string& other = bodies[i].hydrodynamics.coupled_with;
+      if (other.empty()) continue;
+      const std::size_t k = static_cast<std::size_t>(model_.body_index(other));
+      if (taken[i] || taken[k] || i == k)
+        throw SpecificationError("bodies." + bodies[i].name + ".hydrodynamics", "coupled_with",
+                                 "a hull can be coupled with one other hull, and '" + other + "' is taken");
+      taken[i] = taken[k] = true;
+      groups.push_back({i, k});
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (!taken[i]) groups.push_back({i});
+    return groups;
+  }
+
+  HullAfloat hull_afloat(std::size_t body, const Mesh& mesh) const {
+    const BodyKinematics& b = state().body[body];
+    const Vector3 Bo = b.p_WC - b.R_WB * spec().bodies[body].cog;
+    HullAfloat hull{&spec().bodies[body], &mesh, 0.0, Bo.x(), Bo.y(), roll_pitch_yaw(b.R_WB).yaw};
+    if (mesh.vertices.empty()) return hull;
+    // Where the still water meets the vertical through the middle of the hull, along B's z axis.
+    const MeshProperties size = properties_of(mesh);
+    const Vector3 middle = 0.5 * (size.low + size.high);
+    hull.waterline = -(Bo.z() + b.R_WB(2, 0) * middle.x() + b.R_WB(2, 1) * middle.y()) / b.R_WB(2, 2);
+    return hull;
+  }
+
+  struct HydrodynamicsGroup {
+    std::vector<HydrodynamicsBody> hulls;
+    std::shared_ptr<const HydrodynamicCoefficients> set;
+  };
+
+  std::unique_ptr<const ForceElement> element_of(const HydrodynamicsGroup& group) {
+    auto together = build_hydrodynamics(group.hulls, group.set, model_.waves_, spec().sea, spec().panel_method,
+                                        model_.warnings_);
+    const std::string& until = group.hulls.front().afloat.body->hydrodynamics.coupled_until;
+    if (until.empty() || group.hulls.size() == 1) return together;
+    const std::vector<PhaseSpec>& phases = spec().operation.phases;
+    const auto parting =
+        std::find_if(phases.begin(), phases.end(), [&](const PhaseSpec& phase) { return phase.name == until; });
+    if (parting == phases.end() || parting == phases.begin())
+      throw SpecificationError("bodies." + group.hulls.front().afloat.body->name + ".hydrodynamics", "coupled_until",
+                               "must be a phase of the operation after the first, got '" + until + "'");
+    std::vector<std::unique_ptr<const ForceElement>> apart;
+    for (const HydrodynamicsBody& hull : group.hulls) {
+      const auto set =
+          coefficient_set({&hull.afloat, 1}, spec().sea, spec().panel_method, model_.warnings_, progress_);
+      apart.push_back(
+          build_hydrodynamics({hull}, set, model_.waves_, spec().sea, spec().panel_method, model_.warnings_));
+    }
+    return std::make_unique<const PartingHydrodynamics>(std::move(together), std::move(apart),
+                                                        static_cast<int>(parting - phases.begin()));
+  }
+
+  HydrodynamicsGroup prepare_group(const std::vector<std::size_t>& hulls, const std::vector<Mesh>& meshes) {
+    HydrodynamicsGroup group;
+    std::vector<HullAfloat> afloat;
+    for (const std::size_t k : hulls) afloat.push_back(hull_afloat(k, meshes[k]));
+    group.set = coefficient_set(afloat, spec().sea, spec().panel_method, model_.warnings_, progress_);
+    for (std::size_t k = 0; k < hulls.size(); ++k) {
+      const int body = static_cast<int>(hulls[k]);
+      model_.coefficients_[body] = {group.set, static_cast<int>(k), reference_height(afloat, afloat[k])};
+      group.hulls.push_back({afloat[k], body, Vector6::Zero()});
+      if (!spec().bodies[body].hydrodynamics.critical_fraction.isZero())
+        group.hulls.back().critical_damping = critical_part(body);
+    }
+    return group;
   }
 
   // Linear damping that is the wanted share of critical for heave, roll and pitch of everything jointed to the hull,
@@ -283,14 +361,13 @@ class ModelBuilder {
       inertia.tail<3>() += J.diagonal();
       stiffness.segment<2>(3).array() -= b.mass * system().gravity * r.z();  // weights above C tip the hull
     }
-    const auto added_mass = added_mass_of(body);
     for (int dof = 2; dof < 5; ++dof) {
       if (body.hydrodynamics.critical_fraction[dof] == 0.0) continue;
       if (stiffness[dof] <= 0.0)
         throw SpecificationError("bodies." + body.name, "critical_fraction",
                                  "the hull is not stable in this degree of freedom, so it has no critical damping");
       const double frequency =
-          natural_frequency(stiffness[dof], inertia[dof], [&](double w) { return added_mass(w)(dof, dof); });
+          natural_frequency(stiffness[dof], inertia[dof], [&](double w) { return model_.added_mass(hull, w)(dof, dof); });
       inertia[dof] = stiffness[dof] / (frequency * frequency);
     }
     return critical_damping(body.hydrodynamics.critical_fraction, stiffness, inertia);
@@ -321,11 +398,14 @@ class ModelBuilder {
     }
   }
 
+  const HydroProgress& progress_;
   Model model_;
   ElementBuilder build_{model_};
   std::size_t first_wire_ = 0;
 };
 
-Model build_model(const Specification& specification) { return ModelBuilder(specification).build(); }
+Model build_model(const Specification& specification, const HydroProgress& progress) {
+  return ModelBuilder(specification, progress).build();
+}
 
 }  // namespace stillhook

@@ -1,5 +1,6 @@
 #include "sim/model.h"
 
+#include "sim/hull/hydrodynamics.h"
 #include "sim/recorder.h"
 
 namespace stillhook {
@@ -21,6 +22,15 @@ int Model::element_index(const std::string& name) const {
   for (std::size_t i = 0; i < system_.elements.size(); ++i)
     if (system_.elements[i]->name() == name) return static_cast<int>(i);
   return -1;
+}
+
+Matrix6 Model::added_mass(int body, double frequency) const {
+  const BodySpec& spec = specification_.bodies[body];
+  if (spec.hydrodynamics.kind == HydrodynamicsSpec::Kind::constant)
+    return about_point(spec.hydrodynamics.added_mass, spec.cog);
+  const BodyCoefficients& from = coefficients_[body];
+  if (!from.set) return Matrix6::Zero();
+  return added_mass_at(*from.set, from.hull, spec.cog - Vector3(0.0, 0.0, from.reference_height), frequency);
 }
 
 std::map<std::string, double> channel_values(const Model& model, const SystemState& state) {

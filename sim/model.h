@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/hull/coefficient_source.h"
 #include "sim/multibody/force_element.h"
 #include "sim/multibody/system.h"
 #include "sim/sea/wave_field.h"
@@ -28,6 +29,19 @@ class Model {
   /// Static equilibrium in calm water with every drive at zero (or the given poses and velocities, if the case does
   /// not start in equilibrium).
   const SystemState& initial_state() const { return initial_state_; }
+  /// The coefficient set that a body's hydrodynamics come from; null for none and for constant coefficients.
+  struct BodyCoefficients {
+    std::shared_ptr<const HydrodynamicCoefficients> set;
+    int hull = 0;                   // the body's place in a set of several hulls
+    double reference_height = 0.0;  // m, of the set's reference point above Bo
+  };
+  const BodyCoefficients& coefficients(int body) const { return coefficients_[body]; }
+  /// Added mass of a body about its centre of gravity at a frequency (rad/s; infinity for A_inf), axes of its heading
+  /// frame; constant where the case gives it, zero without hydrodynamics.
+  Matrix6 added_mass(int body, double frequency) const;
+  /// What a reader of results must know: energy of the sea that was left out, self-checks that failed and were accepted.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// Joints that lost rows which other joints already imply: their share of the reactions is not determined.
   const std::vector<std::string>& redundant_joints() const { return redundant_joints_; }
 
@@ -36,13 +50,16 @@ class Model {
   Specification specification_;
   std::shared_ptr<const WaveField> waves_;
   MultibodySystem system_;
+  std::vector<BodyCoefficients> coefficients_;
+  std::vector<std::string> warnings_;
   std::vector<double> initial_lengths_;
   std::vector<std::string> redundant_joints_;
   SystemState initial_state_;
 };
 
-/// Builds the elements, assembles the joints, finds the initial static equilibrium. Throws SpecificationError.
-Model build_model(const Specification& specification);
+/// Builds the elements, assembles the joints, finds the initial static equilibrium, gets the hulls' coefficients.
+/// `progress` hears of a panel computation, if there has to be one (coefficient_source.h). Throws SpecificationError.
+Model build_model(const Specification& specification, const HydroProgress& progress = {});
 
 /// Every channel of the model at a state, by name (see trajectory.h for the names).
 std::map<std::string, double> channel_values(const Model& model, const SystemState& state);

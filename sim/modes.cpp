@@ -7,9 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "sim/hull/coefficient_file.h"
-#include "sim/hull/coefficients.h"
-
 namespace stillhook {
 namespace {
 
@@ -17,6 +14,7 @@ constexpr double kCalm = -1.0;  // s: before the waves start
 constexpr int kMaxIterations = 60;
 constexpr double kTolerance = 1e-6;   // of a frequency, relative
 constexpr double kSlowest = 1e-3;     // rad/s: below this a motion has no restoring stiffness
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNamedShare = 0.15;  // of the kinetic energy: what a label names
 
 struct Eigensystem {
@@ -75,15 +73,10 @@ Mode mode_of(double square, const VectorX& shape, const MatrixX& M, const std::v
 ModalAnalysis::ModalAnalysis(const Model& model) : model_(model) {
   const std::vector<BodySpec>& bodies = model.specification().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const HydrodynamicsSpec& spec = bodies[i].hydrodynamics;
-    if (spec.kind != HydrodynamicsSpec::Kind::table) continue;
+    if (!model.coefficients(static_cast<int>(i)).set) continue;
     Hull hull;
     hull.body = static_cast<int>(i);
     hull.R_WH = heading_rotation(model.initial_state().body[i].R_WB);
-    const auto c = std::make_shared<const HydrodynamicCoefficients>(read_coefficient_file(spec.coefficient_file));
-    hull.excess = [c, cog = bodies[i].cog](double w) {
-      return about_point(added_mass_from_kernels(c->A_inf, c->retardation, w) - c->A_inf, cog);
-    };
     hulls_.push_back(std::move(hull));
   }
 }
@@ -93,7 +86,8 @@ MatrixX ModalAnalysis::mass_at(double frequency) const {
   for (const Hull& hull : hulls_) {
     Matrix6 T = Matrix6::Identity();
     T.topLeftCorner<3, 3>() = hull.R_WH.transpose();
-    M.block<6, 6>(6 * hull.body, 6 * hull.body) += T.transpose() * hull.excess(frequency) * T;
+    M.block<6, 6>(6 * hull.body, 6 * hull.body) +=
+        T.transpose() * (model_.added_mass(hull.body, frequency) - model_.added_mass(hull.body, kInfinity)) * T;
   }
   return M;
 }

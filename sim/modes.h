@@ -30,7 +30,7 @@ struct Mode {
 /// The modes of one model at any of its poses.
 class ModalAnalysis {
  public:
-  /// Reads the hulls' coefficient files. Throws SpecificationError. The model must outlive it.
+  /// The model must outlive it.
   explicit ModalAnalysis(const Model& model);
 
   /// All modes at a state in static equilibrium (see solve_static), in the order of falling periods. The elements see
@@ -41,7 +41,6 @@ class ModalAnalysis {
   struct Hull {
     int body = 0;
     Matrix3 R_WH = Matrix3::Identity();
-    std::function<Matrix6(double)> excess;  // A(w) - A_inf about the centre of gravity, axes of H
   };
   MatrixX mass_at(double frequency) const;
 

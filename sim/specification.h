@@ -67,13 +67,23 @@ struct HullSpec {
 };
 
 struct HydrodynamicsSpec {
-  // Where the radiation and diffraction forces come from. `table` = A_inf and retardation functions K(t), and
-  // optionally total excitation X(omega, heading), from a coefficient file.
-  enum class Kind { none, constant, table };
+  // Where the radiation and diffraction forces come from. `panels` = the panel method on the body's hull; `table` = a
+  // file of the project's own format; `database` = WAMIT (.1, .3) or BEMIO (.h5).
+  enum class Kind { none, constant, table, panels, database };
+  // How radiation is brought into the time domain: `reduced` = a passive state space fitted to A(omega), B(omega);
+  // `retardation` = convolution with K(t); `direct` = the panel method marched along (panels only).
+  enum class RadiationModel { automatic, reduced, retardation, direct };  // automatic: retardation for table, else reduced
   Kind kind = Kind::none;
+  RadiationModel radiation = RadiationModel::automatic;
   Matrix6 added_mass = Matrix6::Zero();     // about Bo in the heading frame; kg, kg m, kg m2 (constant)
   Matrix6 damping = Matrix6::Zero();        // same, per s (constant)
-  std::string coefficient_file;             // resolved path (table)
+  std::string coefficient_file;             // resolved path (table, database)
+  Vector3 database_origin = Vector3::Zero();  // m, Bo in the frame of the database, whose z = 0 is the water (database)
+  double database_length = 1.0;             // m, WAMIT's ULEN (database)
+  bool port_starboard = false;              // headings 0..180 deg of the database are mirrored (database)
+  double panel_length = 0.0;                // m, longest panel of the hull; 0 = automatic (panels)
+  std::string coupled_with;                 // body whose hull feels this one; empty = none (panels)
+  std::string coupled_until;                // phase with whose start the coupling ends; empty = never (panels)
   Vector6 linear_damping = Vector6::Zero();     // viscous, N s/m and N m s, per degree of freedom about the cog
   Vector6 quadratic_damping = Vector6::Zero();  // viscous, N s2/m2 and N m s2
   Vector6 critical_fraction = Vector6::Zero();  // viscous, share of critical at the initial equilibrium, heave, roll, pitch only
@@ -90,6 +100,20 @@ struct BodySpec {
   Vector3 angular_velocity = Vector3::Zero();  // rad/s, in B at the start
   HullSpec hull;
   HydrodynamicsSpec hydrodynamics;
+};
+
+/// How coefficients are computed and what is accepted of them, for all hulls.
+struct PanelMethodSpec {
+  enum class Beyond { refuse, cut };
+  double lowest = 0.2, highest = 2.0;  // rad/s
+  int frequencies = 32;
+  int headings = 0;                    // around the circle; 0 = as many as the waves need
+  double refinement = 1.0;             // every panel is divided by it
+  double direct_step = 0.15;           // s, of the `direct` radiation model
+  double direct_lowest = 0.4, direct_highest = 1.2;  // rad/s, the band its panels are made for
+  std::string accepted_checks;         // self-checks that may fail (coefficients.h), with commas in between
+  Beyond beyond = Beyond::refuse;      // what is done with a sea that has energy beyond the coefficients
+  double fit_tolerance = 0.02;         // 1, of the `reduced` radiation model
 };
 
 // ---- joints ---------------------------------------------------------------------------------------------------
@@ -290,6 +314,7 @@ struct Specification {
   std::string name;
   SeaSpec sea;
   std::vector<BodySpec> bodies;
+  PanelMethodSpec panel_method;
   std::vector<JointSpec> joints;
   std::vector<DriveSpec> drives;
   std::vector<WireSpec> wires;

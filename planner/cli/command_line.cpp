@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "planner/cli/commands.h"
+#include "planner/cli/hydro_progress.h"
 #include "planner/version.h"
 #include "problems/search/store.h"
 
@@ -32,6 +33,7 @@ void set_up_messages(bool quiet) {
 struct Request {
   CommonOptions common;
   PlanArguments plan;
+  HydroArguments hydro;
   int threads = 0;
   bool reference = false;  // schema: the key reference instead
   std::function<int()> verb;
@@ -51,12 +53,16 @@ void add_case_options(CLI::App& verb, Request& r) {
   add_output_options(verb, r);
 }
 
-void add_run_options(CLI::App& verb, Request& r, const char* seed_help) {
+void add_folder_options(CLI::App& verb, Request& r) {
   verb.add_option("--out", r.common.out, "Folder to write into (default runs/<case>-<verb>)")->type_name("DIR");
   verb.add_flag("--force", r.common.force, "Replace the run that the folder holds");
   verb.add_option("--threads", r.threads, "Threads to use (default: all cores); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
+}
+
+void add_run_options(CLI::App& verb, Request& r, const char* seed_help) {
+  add_folder_options(verb, r);
   verb.add_option("--seed", r.common.seed, seed_help)->type_name("N")->check(CLI::Range(0, 2147483647));
 }
 
@@ -64,6 +70,20 @@ void add_verbs(CLI::App& app, Request& r) {
   CLI::App* check = app.add_subcommand("check", "Validate a case; print poses, drafts, wires, phases");
   add_case_options(*check, r);
   check->callback([&r] { r.verb = [&r] { return run_check(r.common); }; });
+
+  CLI::App* hydro = app.add_subcommand(
+      "hydro", "Hydrodynamic coefficients of the hulls and the lift's response to waves: tables, files, report");
+  add_case_options(*hydro, r);
+  add_folder_options(*hydro, r);
+  hydro->add_flag("--converge", r.hydro.converge, "Compute with longer and shorter panels too; print the change");
+  hydro
+      ->add_option("--headings", r.hydro.headings,
+                   "Directions in deg the waves of the response amplitude operators travel towards, e.g. 180,90 "
+                   "(default: head, bow quartering and beam seas of the first hull)")
+      ->type_name("DEG")
+      ->delimiter(',')
+      ->check(CLI::Range(-360.0, 360.0));
+  hydro->callback([&r] { r.verb = [&r] { return run_hydro(r.common, r.hydro); }; });
 
   CLI::App* simulate = app.add_subcommand("simulate", "Run the operation once: metrics, limits, report");
   add_case_options(*simulate, r);
@@ -106,6 +126,10 @@ int run_verb(const Request& request) {
   } catch (const UsageError& error) {
     spdlog::error("{}", error.what());
   } catch (const std::exception& error) {
+    if (is_interruption(error)) {
+      spdlog::warn("interrupted while the panel method ran; coefficients that were complete are kept");
+      return kInterrupted;
+    }
     spdlog::critical("{}\nThis is a bug in stillhook {}; please report it with the case and the command.", error.what(),
                      kVersion);
     return kBug;

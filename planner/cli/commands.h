@@ -33,7 +33,13 @@ struct PlanArguments {
   bool resume = false;
 };
 
+struct HydroArguments {
+  bool converge = false;
+  std::vector<double> headings;  // deg, of the response amplitude operators; empty = usual ones
+};
+
 int run_check(const CommonOptions& options);
+int run_hydro(const CommonOptions& options, const HydroArguments& arguments);
 int run_simulate(const CommonOptions& options);
 int run_plan(const CommonOptions& options, const PlanArguments& arguments);
 int run_report(const CommonOptions& options);

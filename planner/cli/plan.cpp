@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "planner/cli/commands.h"
+#include "planner/cli/hydro_progress.h"
 #include "planner/cli/interrupt.h"
 #include "planner/cli/progress.h"
 #include "planner/cli/run_files.h"
@@ -56,6 +57,12 @@ std::vector<RunResult> run_scenarios(const Evaluator& evaluator, const Eigen::Ve
   return runs;
 }
 
+/// Scenarios share most of what must be known.
+void add_new(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
+  for (const std::string& warning : more)
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+}
+
 /// Everything about the finished (or interrupted) search that goes into the folder and on the screen.
 class Conclusion {
  public:
@@ -103,7 +110,10 @@ class Conclusion {
     const RunResult& run = runs[governing];
     summary_ = summary_of(run, planned, "plan");
     std::vector<std::vector<LimitCheck>> limits;
-    for (const RunResult& r : runs) limits.push_back(r.limits);
+    for (const RunResult& r : runs) {
+      limits.push_back(r.limits);
+      add_new(summary_.warnings, r.warnings);
+    }
     summary_.limits = worst_limits(limits);
     write_history(folder_, run, planned);
     write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
@@ -153,8 +163,12 @@ int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
   const Evaluator evaluator(c, &stop);
   check_algorithms(evaluator);
   // A baseline that cannot be built is a fault of the case; only the points of a search are graded.
+  std::vector<std::string> warnings;
   for (std::size_t i = 0; i < evaluator.scenarios().size(); ++i)
-    prepare_run(c, specification_at(evaluator, evaluator.baseline(), i));
+    add_new(warnings, prepare_run(c, specification_at(evaluator, evaluator.baseline(), i),
+                                  panel_method_progress(options.quiet, &stop))
+                          .model.warnings());
+  print_warnings(warnings);
 
   const RunFolder folder(folder_path(options, c, "plan"), arguments.resume ? RunFolder::Mode::resume
                                                           : options.force  ? RunFolder::Mode::replace

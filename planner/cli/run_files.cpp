@@ -27,7 +27,8 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                         std::move(notes),
                         poses,
                         static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation)),
-                        search};
+                        search,
+                        prepared.model.warnings()};
   write_or_refuse([&] { write_report(data, folder.report()); });
 }
 

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include "planner/cli/commands.h"
+#include "planner/cli/hydro_progress.h"
 #include "planner/cli/interrupt.h"
 #include "planner/cli/progress.h"
 #include "planner/cli/run_files.h"
@@ -50,7 +51,8 @@ int run_simulate(const CommonOptions& options) {
   const std::atomic<bool>& stop = catch_interrupts();
   const Case c = load_with_sea_seed(options);
   const std::string statement = statement_of(options.input);
-  const PreparedRun prepared = prepare_run(c, c.specification);
+  const PreparedRun prepared = prepare_run(c, c.specification, panel_method_progress(options.quiet, &stop));
+  print_warnings(prepared.model.warnings());
   const RunFolder folder(folder_path(options, c, "simulate"),
                          options.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh);
   write_or_refuse([&] { write_file(folder.case_file(), case_text(c, statement)); });

@@ -186,19 +186,15 @@ const std::vector<NloptAlgorithm>& nlopt_algorithms() {
 }
 
 std::string algorithm_fault(const std::string& name, bool global, bool has_constraints) {
-  const auto able = [&] {
-    std::string list;
-    for (const NloptAlgorithm& a : nlopt_algorithms())
-      if (a.global == global && (a.constraints || !has_constraints)) list += (list.empty() ? "" : ", ") + a.name;
-    return list;
-  };
-  const std::string kind = global ? "global" : "local";
+  std::string able;
+  for (const NloptAlgorithm& a : nlopt_algorithms())
+    if (a.global == global && (a.constraints || !has_constraints)) able += (able.empty() ? "" : ", ") + a.name;
+  const std::string kind = global ? "global" : "local", got = ", got \"" + name + "\"";
   const Entry* entry = find_entry(name);
-  if (!entry) return "there is no algorithm \"" + name + "\"; " + kind + " ones for this problem: " + able();
-  if (entry->about.global != global)
-    return name + " is not a " + kind + " algorithm; " + kind + " ones for this problem: " + able();
+  if (!entry) return "must be none or one of " + able + got;
+  if (entry->about.global != global) return "must be a " + kind + " algorithm, none or one of " + able + got;
   if (has_constraints && !entry->about.constraints)
-    return name + " cannot keep constraints and the case has limits; " + kind + " ones that can: " + able();
+    return "must keep constraints, since there are limits: none or one of " + able + got;
   return {};
 }
 

@@ -30,7 +30,7 @@ struct NloptAlgorithm {
 /// Every algorithm that can be named, with what it can do.
 const std::vector<NloptAlgorithm>& nlopt_algorithms();
 
-/// Empty if the algorithm exists and can do the job; else a sentence that names those that can.
+/// Empty if the algorithm exists and can do the job; else what it must be instead, which ones can, and the name given.
 std::string algorithm_fault(const std::string& name, bool global, bool has_constraints);
 
 /// Minimises the problem. Never throws for what the algorithm does; an exception out of problem.evaluate stops the

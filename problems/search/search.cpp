@@ -150,9 +150,11 @@ std::string search_fault(const SearchProblem& problem, const SearchOptions& opti
   if (std::string fault = problem_fault(problem); !fault.empty()) return fault;
   const bool constrained = !problem.constraint_names.empty();
   if (!options.global_algorithm.empty())
-    if (std::string fault = algorithm_fault(options.global_algorithm, true, constrained); !fault.empty()) return fault;
+    if (std::string fault = algorithm_fault(options.global_algorithm, true, constrained); !fault.empty())
+      return "global_algorithm " + fault;
   if (!options.local_algorithm.empty())
-    if (std::string fault = algorithm_fault(options.local_algorithm, false, constrained); !fault.empty()) return fault;
+    if (std::string fault = algorithm_fault(options.local_algorithm, false, constrained); !fault.empty())
+      return "local_algorithm " + fault;
   if (options.evaluations <= 0) return "the evaluation budget must be positive";
   if (!(options.global_share >= 0.0 && options.global_share <= 1.0)) return "global_share must be in [0, 1]";
   if (!(options.initial_step > 0.0 && options.initial_step <= 1.0)) return "initial_step must be in (0, 1]";

@@ -1,15 +1,39 @@
 // From a body's specification to its hydrodynamic force element.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <sstream>
 
-#include "sim/hull/coefficient_file.h"
 #include "sim/hull/hydrodynamics.h"
+#include "sim/hull/radiation_march.h"
 #include "sim/hull/radiation_memory.h"
+#include "sim/hull/state_space_radiation.h"
 
 namespace stillhook {
 namespace {
 
 std::string entry_of(const BodySpec& spec) { return "bodies." + spec.name + ".hydrodynamics"; }
+
+double reference_height_of(const std::vector<HydrodynamicsBody>& bodies, std::size_t i) {
+  const std::array<HullAfloat, 1> first{bodies.front().afloat};
+  return i == 0 ? 0.0 : reference_height(first, bodies[i].afloat);
+}
+
+/// Everything a march depends on.
+std::string march_key(const std::vector<HullAfloat>& hulls, const SeaSpec& sea, const PanelMethodSpec& method) {
+  std::ostringstream key;
+  key.precision(17);
+  key << sea.density << ' ' << sea.gravity << ' ' << method.direct_step << ' ' << method.direct_lowest << ' '
+      << method.direct_highest << ' ' << method.refinement;
+  for (const PanelHull& hull : panel_hulls(hulls)) {
+    key << ' ' << hull.waterline << ' ' << hull.box_size.transpose() << ' ' << hull.box_centre.transpose();
+    if (hulls.size() > 1) key << ' ' << hull.x << ' ' << hull.y << ' ' << hull.yaw;
+    for (const Vector3& vertex : hull.mesh.vertices) key << ' ' << vertex.transpose();
+  }
+  return key.str();
+}
 
 template <class Derived>
 void require_finite(const Eigen::DenseBase<Derived>& value, const BodySpec& spec, const char* field) {
@@ -44,16 +68,9 @@ void require_physical(const Matrix6& value, bool symmetric, const BodySpec& spec
                              "must not have a negative eigenvalue: some motion would gain energy from still water");
 }
 
-HydrodynamicCoefficients read_for(const BodySpec& spec) {
-  try {
-    HydrodynamicCoefficients c = read_coefficient_file(spec.hydrodynamics.coefficient_file);
-    require_self_checks(c);
-    if (c.hulls() != 1)
-      throw SpecificationError(c.source, "", "holds the coefficients of several hulls, one body needs those of one");
-    return c;
-  } catch (const SpecificationError& error) {
-    throw SpecificationError(entry_of(spec), "coefficient_file", error.what());
-  }
+/// The set's own field, for errors.
+const char* field_of(const BodySpec& spec) {
+  return spec.hydrodynamics.kind == HydrodynamicsSpec::Kind::panels ? "kind" : "coefficient_file";
 }
 
 void require_close(double value, double expected, double tolerance, const char* what, const char* unit,
@@ -61,81 +78,178 @@ void require_close(double value, double expected, double tolerance, const char* 
   if (std::abs(value / expected - 1.0) <= tolerance) return;
   std::ostringstream sentence;
   sentence << "holds for " << what << " " << value << " " << unit << ", the case has " << expected << " " << unit;
-  throw SpecificationError(entry_of(spec), "coefficient_file", sentence.str());
+  throw SpecificationError(entry_of(spec), field_of(spec), sentence.str());
 }
 
-std::unique_ptr<const Diffraction> build_diffraction(const BodySpec& spec, const HydrodynamicCoefficients& c,
-                                                     double heading, const Mesh& hull,
+/// One for each set and, of coupled hulls, their headings: every model of a search has the same.
+std::shared_ptr<const DiffractionTable> table_for(const std::shared_ptr<const HydrodynamicCoefficients>& set,
+                                                  const std::vector<LinearFroudeKrylov>& incident,
+                                                  const std::vector<double>& headings) {
+  struct Entry {
+    std::weak_ptr<const HydrodynamicCoefficients> set;
+    std::vector<double> relative;
+    std::vector<double> volumes;
+    std::shared_ptr<const DiffractionTable> table;
+  };
+  static std::mutex mutex;
+  static std::vector<Entry> known;
+  std::vector<double> relative, volumes;
+  for (const double heading : headings) relative.push_back(heading - headings[0]);
+  for (const LinearFroudeKrylov& hull : incident) volumes.push_back(hull.volume());
+  const std::lock_guard lock(mutex);
+  std::erase_if(known, [](const Entry& entry) { return entry.set.expired(); });
+  for (const Entry& entry : known)
+    if (entry.set.lock() == set && entry.relative == relative && entry.volumes == volumes) return entry.table;
+  known.push_back({set, relative, volumes,
+                   std::make_shared<const DiffractionTable>(set->excitation, incident, headings, set->length)});
+  return known.back().table;
+}
+
+std::unique_ptr<const Diffraction> build_diffraction(const std::vector<HydrodynamicsBody>& bodies,
+                                                     const std::shared_ptr<const HydrodynamicCoefficients>& set,
                                                      std::shared_ptr<const WaveField> waves,
+                                                     const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                      const HydrodynamicsOptions& options) {
+  const BodySpec& first = *bodies.front().afloat.body;
+  const HydrodynamicCoefficients& c = *set;
   try {
-    const LinearFroudeKrylov incident(hull, c.waterline, c.density, c.gravity);
-    require_close(c.volume[0], incident.volume(), options.volume_tolerance, "a displaced volume of", "m3", spec);
+    std::vector<LinearFroudeKrylov> incident;
+    std::vector<double> headings;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      Mesh mesh = *bodies[i].afloat.mesh;
+      const double height = reference_height_of(bodies, i);
+      for (Vector3& vertex : mesh.vertices) vertex.z() -= height;
+      incident.emplace_back(mesh, c.waterline, c.density, c.gravity);
+      headings.push_back(bodies[i].afloat.yaw);
+      require_close(c.volume[i], incident.back().volume(), options.volume_tolerance, "a displaced volume of", "m3",
+                    *bodies[i].afloat.body);
+    }
     if (c.excitation.empty() || !waves || waves->calm()) return nullptr;
-    const DiffractionTable table(c.excitation, {&incident, 1}, {&heading, 1}, c.length);
-    return std::make_unique<const Diffraction>(std::move(waves), table, std::span<const double>{&heading, 1},
-                                               options.negligible_energy, entry_of(spec));
+    const DiffractionTable& table = *table_for(set, incident, headings);
+    const bool cut = method.beyond == PanelMethodSpec::Beyond::cut;
+    auto diffraction = std::make_unique<const Diffraction>(std::move(waves), table, headings,
+                                                           cut ? 1.0 : options.negligible_energy, entry_of(first));
+    if (diffraction->share_left_out() > 0.0) {
+      std::ostringstream sentence;
+      sentence.precision(2);
+      sentence << first.name << ": " << 100.0 * diffraction->share_left_out()
+               << " % of the sea's energy lies beyond the hull's coefficients and acts without diffraction";
+      warnings.push_back(sentence.str());
+    }
+    return diffraction;
   } catch (const MeshError& error) {
-    throw SpecificationError(entry_of(spec), "coefficient_file", error.what());
+    throw SpecificationError(entry_of(first), field_of(first), error.what());
   }
+}
+
+/// Marches are costly to build: one for each set of hulls, kept as long as anything uses it.
+std::shared_ptr<const rankine::PanelMarch> march_for(const std::vector<HullAfloat>& hulls, const SeaSpec& sea,
+                                                     const PanelMethodSpec& method, const std::string& key) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const rankine::PanelMarch>> known;
+  const std::lock_guard lock(mutex);
+  if (auto march = known[key].lock()) return march;
+  PanelMethodOptions options = panel_options(sea, method, hulls.front().body->hydrodynamics.panel_length);
+  options.lowest = method.direct_lowest;
+  options.highest = method.direct_highest;
+  auto march = std::make_shared<const rankine::PanelMarch>(panel_hulls(hulls), options, method.direct_step);
+  known[key] = march;
+  return march;
+}
+
+std::shared_ptr<const StateSpaceFit> state_space_for(const std::shared_ptr<const HydrodynamicCoefficients>& set,
+                                                     double tolerance) {
+  static std::mutex mutex;
+  static std::map<std::pair<const void*, double>,
+                  std::pair<std::weak_ptr<const HydrodynamicCoefficients>, std::shared_ptr<const StateSpaceFit>>>
+      known;
+  const std::lock_guard lock(mutex);
+  auto& entry = known[{set.get(), tolerance}];
+  if (!entry.second || entry.first.lock() != set) {
+    StateSpaceOptions options;
+    options.tolerance = tolerance;
+    entry = {set, std::make_shared<const StateSpaceFit>(fit_state_space(*set, options).fit)};
+  }
+  return entry.second;
 }
 
 }  // namespace
 
-std::unique_ptr<ForceElement> build_hydrodynamics(const BodySpec& spec, int body, double heading, const Mesh& hull,
+std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<HydrodynamicsBody>& bodies,
+                                                  std::shared_ptr<const HydrodynamicCoefficients> set,
                                                   std::shared_ptr<const WaveField> waves, const SeaSpec& sea,
-                                                  const Vector6& critical_damping,
+                                                  const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                   const HydrodynamicsOptions& options) {
-  const HydrodynamicsSpec& h = spec.hydrodynamics;
-  require_not_negative(h.linear_damping, spec, "linear_damping");
-  require_not_negative(h.quadratic_damping, spec, "quadratic_damping");
-  require_not_negative(critical_damping, spec, "critical_fraction");
-  HydrodynamicsHull part{spec.name, HeadingFrame(body, spec.cog, heading),
-                         ViscousDamping{h.linear_damping + critical_damping, h.quadratic_damping}};
-  MatrixX A_inf = MatrixX::Zero(6, 6);
+  using Model = HydrodynamicsSpec::RadiationModel;
+  std::vector<HydrodynamicsHull> hulls;
+  bool nothing = !set;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const BodySpec& spec = *bodies[i].afloat.body;
+    const HydrodynamicsSpec& h = spec.hydrodynamics;
+    require_not_negative(h.linear_damping, spec, "linear_damping");
+    require_not_negative(h.quadratic_damping, spec, "quadratic_damping");
+    require_not_negative(bodies[i].critical_damping, spec, "critical_fraction");
+    const Vector3 cog = spec.cog - Vector3(0.0, 0.0, reference_height_of(bodies, i));
+    hulls.push_back({spec.name, HeadingFrame(bodies[i].index, cog, bodies[i].afloat.yaw),
+                     ViscousDamping{h.linear_damping + bodies[i].critical_damping, h.quadratic_damping}});
+    nothing = nothing && h.kind != HydrodynamicsSpec::Kind::constant && hulls.back().viscous.none();
+  }
+  if (nothing) return nullptr;
+  const BodySpec& first = *bodies.front().afloat.body;
+  const HydrodynamicsSpec& h = first.hydrodynamics;
+  const int modes = 6 * static_cast<int>(bodies.size());
+  MatrixX A_inf = MatrixX::Zero(modes, modes);
   std::unique_ptr<const Radiation> radiation;
   std::unique_ptr<const Diffraction> diffraction;
-  switch (h.kind) {
-    case HydrodynamicsSpec::Kind::none:
-      if (part.viscous.none()) return nullptr;
-      break;
-    case HydrodynamicsSpec::Kind::constant:
-      require_physical(h.added_mass, true, spec, "added_mass");
-      require_physical(h.damping, false, spec, "damping");
-      A_inf = h.added_mass;
-      radiation = std::make_unique<ConstantRadiation>(h.damping);
-      break;
-    case HydrodynamicsSpec::Kind::table: {
-      const HydrodynamicCoefficients c = read_for(spec);
-      require_close(c.density, sea.density, options.density_tolerance, "water of", "kg/m3", spec);
-      require_close(c.gravity, sea.gravity, options.density_tolerance, "a gravity of", "m/s2", spec);
-      A_inf = c.A_inf;
-      if (!c.retardation.empty())
-        radiation = std::make_unique<RadiationMemory>(truncated(c.retardation, options.kernel_tolerance), 6);
-      diffraction = build_diffraction(spec, c, heading, hull, std::move(waves), options);
-      break;
+  if (h.kind == HydrodynamicsSpec::Kind::constant) {
+    require_physical(h.added_mass, true, first, "added_mass");
+    require_physical(h.damping, false, first, "damping");
+    A_inf = h.added_mass;
+    radiation = std::make_unique<ConstantRadiation>(h.damping);
+  } else if (set) {
+    const HydrodynamicCoefficients& c = *set;
+    require_close(c.density, sea.density, options.density_tolerance, "water of", "kg/m3", first);
+    require_close(c.gravity, sea.gravity, options.density_tolerance, "a gravity of", "m/s2", first);
+    diffraction = build_diffraction(bodies, set, std::move(waves), method, warnings, options);
+    A_inf = c.A_inf;
+    const bool table = h.kind == HydrodynamicsSpec::Kind::table;
+    const Model model = h.radiation != Model::automatic ? h.radiation : table ? Model::retardation : Model::reduced;
+    try {
+      if (model == Model::retardation && !c.retardation.empty()) {
+        radiation = std::make_unique<RadiationMemory>(truncated(c.retardation, options.kernel_tolerance), modes);
+      } else if (model == Model::reduced) {
+        radiation = std::make_unique<StateSpaceRadiation>(*state_space_for(set, method.fit_tolerance));
+      } else if (model == Model::direct) {
+        std::vector<HullAfloat> afloat;
+        for (const HydrodynamicsBody& body : bodies) afloat.push_back(body.afloat);
+        auto march = march_for(afloat, sea, method, march_key(afloat, sea, method));
+        A_inf = march->A_inf();
+        radiation = std::make_unique<RadiationMarch>(std::move(march));
+      }
+    } catch (const SpecificationError& error) {
+      throw SpecificationError(entry_of(first), "radiation", error.what());
     }
   }
-  return std::make_unique<HydrodynamicsElement>(spec.name + ".hydrodynamics",
-                                                std::vector<HydrodynamicsHull>{std::move(part)}, std::move(A_inf),
+  return std::make_unique<HydrodynamicsElement>(first.name + ".hydrodynamics", std::move(hulls), std::move(A_inf),
                                                 std::move(radiation), std::move(diffraction));
 }
 
-std::function<Matrix6(double)> added_mass_of(const BodySpec& spec) {
-  switch (spec.hydrodynamics.kind) {
-    case HydrodynamicsSpec::Kind::none:
-      break;
-    case HydrodynamicsSpec::Kind::constant:
-      return [A = about_point(spec.hydrodynamics.added_mass, spec.cog)](double) { return A; };
-    case HydrodynamicsSpec::Kind::table:
-      return [c = read_for(spec), cog = spec.cog](double frequency) {
-        if (std::isinf(frequency)) return about_point(c.A_inf, cog);
-        return about_point(added_mass_from_kernels(c.A_inf, c.retardation, frequency), cog);
-      };
+Matrix6 added_mass_at(const HydrodynamicCoefficients& set, int hull, const Vector3& c, double frequency) {
+  const auto block = [&](const MatrixX& M) -> Matrix6 { return about_point(M.block<6, 6>(6 * hull, 6 * hull), c); };
+  if (std::isinf(frequency) || (set.retardation.empty() && set.frequency.empty())) return block(set.A_inf);
+  if (set.frequency.empty()) return block(added_mass_from_kernels(set.A_inf, set.retardation, frequency));
+  const auto above = std::lower_bound(set.frequency.begin(), set.frequency.end(), frequency,
+                                      [](const FrequencyCoefficients& f, double w) { return f.frequency < w; });
+  if (above == set.frequency.begin()) return block(above->A);
+  if (above == set.frequency.end()) {
+    // A - A_inf falls as the inverse square of the frequency (Ogilvie 1964).
+    const FrequencyCoefficients& last = set.frequency.back();
+    const double fall = std::pow(last.frequency / frequency, 2);
+    return block(set.A_inf + fall * (last.A - set.A_inf));
   }
-  return [](double) -> Matrix6 { return Matrix6::Zero(); };
+  const FrequencyCoefficients& below = *(above - 1);
+  const double t = (frequency - below.frequency) / (above->frequency - below.frequency);
+  return block((1.0 - t) * below.A + t * above->A);
 }
-
-Matrix6 added_mass_at(const BodySpec& spec, double frequency) { return added_mass_of(spec)(frequency); }
 
 }  // namespace stillhook

@@ -138,8 +138,14 @@ void CoefficientReader::fill_frequencies(HydrodynamicCoefficients& c) const {
   }
   for (const auto& [frequency, rows] : by_frequency) {
     if (frequency > 0.0 && rows.second.empty()) text_.fail(rows.first[0]->line, "A is given at a frequency without B");
-    c.frequency.push_back({frequency, matrix_of(rows.first, false), matrix_of(rows.second, true)});
+    c.frequency.push_back({frequency, matrix_of(rows.first, false), matrix_of(rows.second, false)});
   }
+  VectorX largest = VectorX::Zero(text_.modes());
+  for (const FrequencyCoefficients& f : c.frequency) largest = largest.cwiseMax(f.B.diagonal().cwiseAbs());
+  for (const auto& [frequency, rows] : by_frequency)
+    for (const CoefficientRow* row : rows.second)
+      if (row->i == row->pair().second && row->value < -kNegativeDamping * largest(row->i))
+        text_.fail(row->line, "B must not be negative on the diagonal");
 }
 
 void CoefficientReader::fill_excitation(HydrodynamicCoefficients& c) const {
@@ -201,7 +207,8 @@ HydrodynamicCoefficients CoefficientReader::read() const {
   c.density = text_.header_number("density_kg_m3", 0.0, true);
   c.gravity = text_.header_number("gravity_m_s2", 0.0, true);
   c.length = text_.header_number("length_m", 0.0, true);
-  c.volume = text_.volumes();
+  c.volume = text_.per_hull("volume_m3");
+  c.waterplane = text_.per_hull("waterplane_m2");
   check_duplicates();
   const std::vector<const CoefficientRow*> A_inf = rows_of("Ainf");
   if (A_inf.empty()) text_.fail(text_.last_line(), "there is no added mass Ainf");

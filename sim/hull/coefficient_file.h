@@ -9,6 +9,7 @@
 //   axes,x_forward_y_port_z_up               ... along the heading frame H
 //   waterline_m,0                            height of the calm water plane above Bo
 //   volume_m3,20240                          displaced volume, one number a hull
+//   waterplane_m2,5060                       optional: area of the water plane, one number a hull
 //   density_kg_m3,1025
 //   gravity_m_s2,9.80665
 //   length_m,110                             length scale of the hull
@@ -34,8 +35,17 @@
 
 namespace stillhook {
 
+/// Diagonal damping may be negative by this part of the largest of its mode, as panels and rounding leave it.
+inline constexpr double kNegativeDamping = 0.02;
+
 /// Reads a coefficient file. Throws SpecificationError with entry "<path>:<line>" and the rule that is broken. Does not
 /// run the self-checks.
 HydrodynamicCoefficients read_coefficient_file(const std::string& path);
+
+/// Writes what read_coefficient_file reads, with 9 significant digits, headings all around and no symmetry assumed.
+/// The file appears under its name only when it is complete. Both A_ij and A_ji are written where they differ. Throws
+/// SpecificationError(path) when the set cannot be said in this format (no retardation functions, numbers that are not
+/// finite, damping more negative than kNegativeDamping) or the file cannot be written.
+void write_coefficient_file(const std::string& path, const HydrodynamicCoefficients& coefficients);
 
 }  // namespace stillhook

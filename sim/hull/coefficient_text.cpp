@@ -12,6 +12,7 @@ namespace stillhook {
 namespace {
 
 constexpr const char* kMagic = "stillhook_coefficients";
+constexpr const char* kOptionalKey = "waterplane_m2";
 constexpr const char* kColumns = "quantity,i,j_or_heading_deg,omega_rad_s_or_t_s,value,phase_deg";
 
 /// Fields between commas, without blanks around them.
@@ -82,7 +83,7 @@ void CoefficientText::read_header() {
     if (!next_line(text)) fail(line_, "ends before the line of columns \"" + std::string(kColumns) + "\"");
     std::vector<std::string> fields = split(text);
     if (fields[0] == "quantity") break;
-    if (!known.contains(fields[0])) fail(line_, "unknown key \"" + fields[0] + "\"");
+    if (!known.contains(fields[0]) && fields[0] != kOptionalKey) fail(line_, "unknown key \"" + fields[0] + "\"");
     if (header_.contains(fields[0])) fail(line_, "key \"" + fields[0] + "\" is given twice");
     const std::string key = fields[0];
     fields.erase(fields.begin());
@@ -181,13 +182,15 @@ void CoefficientText::check_conventions() {
   if (mirrored_ && modes_ > 6) fail(header_.at("symmetry").first, "several hulls together have no symmetry");
 }
 
-std::vector<double> CoefficientText::volumes() const {
-  const auto& [line, fields] = header_.at("volume_m3");
-  if (6 * static_cast<int>(fields.size()) != modes_) fail(line, "volume_m3 must have one number a hull");
+std::vector<double> CoefficientText::per_hull(const std::string& key) const {
+  const auto found = header_.find(key);
+  if (found == header_.end()) return {};
+  const auto& [line, fields] = found->second;
+  if (6 * static_cast<int>(fields.size()) != modes_) fail(line, key + " must have one number a hull");
   std::vector<double> result;
   for (const std::string& field : fields) {
-    result.push_back(number(field, "volume_m3", line));
-    if (!(result.back() > 0.0)) fail(line, "volume_m3 must be > 0, got \"" + field + "\"");
+    result.push_back(number(field, key.c_str(), line));
+    if (!(result.back() > 0.0)) fail(line, key + " must be > 0, got \"" + field + "\"");
   }
   return result;
 }

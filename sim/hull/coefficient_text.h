@@ -35,12 +35,12 @@ class CoefficientText {
   int last_line() const { return line_; }
   const std::vector<CoefficientRow>& rows() const { return rows_; }
 
-  /// Value of a header key; every file has them all.
+  /// Value of a header key; every file has them all but waterplane_m2.
   std::string header_text(const std::string& key) const;
   /// A number >= low, or > low when `open`.
   double header_number(const std::string& key, double low, bool open) const;
-  /// One number > 0 for each hull.
-  std::vector<double> volumes() const;
+  /// One number > 0 for each hull; nothing where the header does not give the key.
+  std::vector<double> per_hull(const std::string& key) const;
 
   [[noreturn]] void fail(int line, const std::string& sentence) const;
 

@@ -56,14 +56,15 @@ struct ExcitationTable {
 
 /// A coefficient set with everything that must be known to use it.
 struct HydrodynamicCoefficients {
-  std::string source;          // where it was read, or what computed it
-  std::string description;     // origin of the numbers, for reports
-  double density = 0.0;        // kg/m3, of the water it holds for
-  double gravity = 0.0;        // m/s2
-  double length = 0.0;         // m, the hull's length scale: rotations are compared with translations through it
-  double waterline = 0.0;      // m, height of the calm water plane above Bo
-  std::vector<double> volume;  // m3, displaced volume of each hull
-  MatrixX A_inf;               // modes x modes
+  std::string source;              // where it was read, or what computed it
+  std::string description;         // origin of the numbers, for reports
+  double density = 0.0;            // kg/m3, of the water it holds for
+  double gravity = 0.0;            // m/s2
+  double length = 0.0;             // m, the hull's length scale: rotations are compared with translations through it
+  double waterline = 0.0;          // m, height of the calm water plane above Bo
+  std::vector<double> volume;      // m3, displaced volume of each hull
+  std::vector<double> waterplane;  // m2, area of each hull's water plane; empty where it is not known
+  MatrixX A_inf;                   // modes x modes
   RetardationFunctions retardation;
   std::vector<FrequencyCoefficients> frequency;  // ascending; may be empty
   ExcitationTable excitation;                    // may be empty
@@ -89,6 +90,7 @@ Matrix6 about_point(const Matrix6& about_origin, const Vector3& c);
 
 /// A property every physical set has, measured on this one.
 struct SelfCheck {
+  std::string key;     // "symmetry_infinite": how a user names it
   std::string name;    // "symmetry of A_inf"
   std::string detail;  // where the worst value is
   double value = 0.0;  // the worst deviation found, dimensionless
@@ -96,13 +98,30 @@ struct SelfCheck {
   bool passed() const { return value <= limit; }
 };
 
-/// Finite numbers (else nothing more is checked); symmetry and positive definiteness of A_inf; symmetry and B(w) >= 0
-/// of the tables; B(w) >= 0 of the kernels; Kramers-Kronig (the kernels against the tables); kernels that have died out
-/// at their end. Deviations of pair (i,j) are relative to sqrt(X_ii X_jj), which needs no units; checks whose data are
-/// missing are left out.
+/// What a set of coefficients must satisfy. Deviations of pair (i,j) are relative to sqrt(X_ii X_jj), which needs no
+/// units; checks whose data are missing are left out.
+///   finite              finite numbers (else nothing more is checked)
+///   symmetry_infinite   A_inf is symmetric, positive_infinite: and positive semidefinite
+///   displaced_mass      A_inf in heave is neither < 1/100 nor > 300 of the displaced mass: kg, not tonnes
+///   symmetry            of A(w), B(w);  damping: B(w) >= 0
+///   low_frequency       A(w) at the lowest frequency is not far above all others: it has a finite limit in deep water
+///   kernel_damping      B(w) >= 0 of the retardation functions;  kernel_tail: they have died out at their end
+///   kramers_kronig      the retardation functions against A(w), B(w)
+///   haskind             the energy a moving hull radiates is that which waves from all around can give it (Newman
+///   1962):
+///                         B_ij = w^3 / (4 pi rho g^3) int_0^2pi Re(X_i conj X_j) db      (deep water),
+///                       wherever the headings resolve the integrand: more than 2 (k R + 1), R half the length
+///   long_wave_phase     where k length/2 <= 1, at the lowest frequency: the force of surge and sway leads the crest by
+///   a
+///                       quarter period, along the direction of the waves, and that of heave lags by w B_33
+///   long_wave_heave     there too: X_3 + w^2 A_33 -> rho g A_waterplane
 std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& coefficients);
 
-/// Throws SpecificationError(coefficients.source) with the first failed check.
-void require_self_checks(const HydrodynamicCoefficients& coefficients);
+/// Keys of the checks that a user may name as accepted: all but `finite`.
+const std::vector<std::string>& acceptable_self_checks();
+
+/// Throws SpecificationError(coefficients.source) with the first failed check that is not among `accepted`, and when
+/// `accepted` names a check that does not exist.
+void require_self_checks(const HydrodynamicCoefficients& coefficients, const std::vector<std::string>& accepted = {});
 
 }  // namespace stillhook

@@ -30,17 +30,18 @@ DiffractionTable::DiffractionTable(const ExcitationTable& total, std::span<const
       throw std::invalid_argument("the headings of an excitation table must be evenly spaced around the circle");
   frequencies_.push_back(0.0);
   value_.push_back(Eigen::MatrixXcd::Zero(directions, total.modes));
-  for (int f = 0; f < static_cast<int>(total.frequencies.size()); ++f) {
-    frequencies_.push_back(total.frequencies[f]);
-    Eigen::MatrixXcd X(directions, total.modes);
-    for (int h = 0; h < directions; ++h)
-      for (int hull = 0; hull < static_cast<int>(froude_krylov.size()); ++hull) {
-        const double own_heading = headings_[h] + headings[0] - headings[hull];
-        const auto incident = froude_krylov[hull].excitation(total.frequencies[f], own_heading);
-        for (int i = 0; i < 6; ++i) X(h, 6 * hull + i) = total.at(f, h, 6 * hull + i) - incident(i);
-      }
-    value_.push_back(X);
-  }
+  frequencies_.insert(frequencies_.end(), total.frequencies.begin(), total.frequencies.end());
+  value_.resize(frequencies_.size(), Eigen::MatrixXcd(directions, total.modes));
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int f = 0; f < static_cast<int>(total.frequencies.size()); ++f)
+    for (int hull = 0; hull < static_cast<int>(froude_krylov.size()); ++hull) {
+      std::vector<double> own(headings_);
+      for (double& heading : own) heading += headings[0] - headings[hull];
+      const auto incident = froude_krylov[hull].excitations(total.frequencies[f], own);
+      for (int h = 0; h < directions; ++h)
+        for (int i = 0; i < 6; ++i)
+          value_[f + 1](h, 6 * hull + i) = total.at(f, h, 6 * hull + i) - incident(i, h);
+    }
 }
 
 bool DiffractionTable::resolves(double frequency, double heading) const {
@@ -105,16 +106,17 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
                               wave.frequency, wave.phase});
     }
   }
+  left_out_ = energy > 0.0 ? beyond / energy : 0.0;
   if (beyond > negligible_energy * energy) {
     std::ostringstream sentence;
     sentence.precision(3);
     sentence << 100.0 * beyond / energy << " % of the sea's energy lies ";
     if (above)
-      sentence << "above " << table.highest_frequency() << " rad/s, where the excitation of the coefficient file ends";
+      sentence << "above " << table.highest_frequency() << " rad/s, where the excitation of the coefficients ends";
     else
-      sentence << "in short waves between the headings of the coefficient file, which are too far apart for them";
+      sentence << "in short waves between the headings of the coefficients, which are too far apart for them";
     sentence << "; at most " << 100.0 * negligible_energy << " % may";
-    throw SpecificationError(entry, "coefficient_file", sentence.str());
+    throw SpecificationError(entry, "", sentence.str());
   }
 }
 

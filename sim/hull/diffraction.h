@@ -54,6 +54,8 @@ class Diffraction {
               double negligible_energy, const std::string& entry);
 
   bool calm() const { return waves_->calm(); }
+  /// Of the sea's energy, 1.
+  double share_left_out() const { return left_out_; }
 
   /// Force on a hull with its reference point at (x, y) in W, in its heading frame (N, N m), and its derivatives with
   /// respect to x and y in W.
@@ -66,6 +68,7 @@ class Diffraction {
   };
   std::shared_ptr<const WaveField> waves_;
   std::vector<std::vector<Component>> hulls_;
+  double left_out_ = 0.0;
 };
 
 }  // namespace stillhook

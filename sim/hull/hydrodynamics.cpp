@@ -145,7 +145,7 @@ void HydrodynamicsElement::end_step(const Instant& now, double h, Memory m) cons
   radiation_->end_step({V.data(), static_cast<std::size_t>(V.size())}, h, radiation_memory(m));
 }
 
-void HydrodynamicsElement::add_mass(MatrixX& M) const {
+void HydrodynamicsElement::add_mass(MatrixX& M, int /*phase*/) const {
   for (std::size_t i = 0; i < hulls_.size(); ++i)
     for (std::size_t j = 0; j < hulls_.size(); ++j)
       M.block<6, 6>(6 * hulls_[i].frame.body, 6 * hulls_[j].frame.body) +=

@@ -9,10 +9,10 @@
 #pragma once
 
 #include <functional>
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include "sim/hull/coefficient_source.h"
 #include "sim/hull/damping.h"
 #include "sim/hull/diffraction.h"
 #include "sim/hull/heading_frame.h"
@@ -43,7 +43,7 @@ class HydrodynamicsElement final : public ForceElement {
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
   void end_step(const Instant& now, double h, Memory m) const override;
-  void add_mass(MatrixX& M) const override;
+  void add_mass(MatrixX& M, int phase) const override;
   /// Viscous damping and, for constant coefficients, radiation. The power of a radiation memory has no sign at an
   /// instant and is not counted.
   double dissipated_power(const Instant& now, Memory m) const override;
@@ -81,23 +81,27 @@ struct HydrodynamicsOptions {
   double volume_tolerance = 0.02;   // 1, relative difference of displaced volume between file and mesh
 };
 
-/// The hydrodynamic force element of a body, named "<body>.hydrodynamics"; null when the body has neither coefficients
-/// nor damping.
-/// `body`: its index. `heading`: yaw of the body in the initial equilibrium, rad. `hull`: the body's mesh in B, needed
-/// with Kind::table and excitation. `critical_damping`: the linear viscous coefficients that
-/// HydrodynamicsSpec::critical_fraction resolves to (damping.h), zero if none. Throws SpecificationError
-/// ("bodies.<name>") for values that are not physical, a coefficient file that cannot be read or fails its self-checks,
-/// a hull or water that is not the file's, and a sea with energy that the file does not resolve.
-std::unique_ptr<ForceElement> build_hydrodynamics(const BodySpec& spec, int body, double heading, const Mesh& hull,
+/// A hull of the element to be built. `critical_damping`: the linear viscous coefficients that
+/// HydrodynamicsSpec::critical_fraction resolves to (damping.h), zero if none.
+struct HydrodynamicsBody {
+  HullAfloat afloat;
+  int index = 0;  // of the body
+  Vector6 critical_damping = Vector6::Zero();
+};
+
+/// The hydrodynamic force element of one body, or of several whose hulls feel each other, named
+/// "<first body>.hydrodynamics"; null when there are neither coefficients nor damping. `set`: from coefficient_set(),
+/// null for the kinds that have none. Sentences that a report must carry go to `warnings`. Throws SpecificationError
+/// ("bodies.<name>.hydrodynamics") for values that are not physical, a hull or water that is not the set's, a sea with
+/// energy that the set does not resolve, and a set that no passive state space fits.
+std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<HydrodynamicsBody>& bodies,
+                                                  std::shared_ptr<const HydrodynamicCoefficients> set,
                                                   std::shared_ptr<const WaveField> waves, const SeaSpec& sea,
-                                                  const Vector6& critical_damping,
+                                                  const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                   const HydrodynamicsOptions& options = {});
 
-/// Added mass of a body about its centre of gravity as a function of frequency (rad/s; infinity for A_inf), axes of H:
-/// what critical damping and natural periods need. Reads the coefficient file for Kind::table, once. Zero for
-/// Kind::none. Throws SpecificationError.
-std::function<Matrix6(double)> added_mass_of(const BodySpec& spec);
-/// The same at one frequency.
-Matrix6 added_mass_at(const BodySpec& spec, double frequency);
+/// Added mass of one hull of a set about the point c (m, in H from its reference point) at a frequency (rad/s; infinity
+/// for A_inf), axes of H: from the retardation functions, else from the table.
+Matrix6 added_mass_at(const HydrodynamicCoefficients& set, int hull, const Vector3& c, double frequency);
 
 }  // namespace stillhook

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/hull/froude_krylov_kernel.h"
+
 namespace stillhook {
 namespace {
 
@@ -63,24 +65,32 @@ LinearFroudeKrylov::LinearFroudeKrylov(const Mesh& hull, double waterline, doubl
 }
 
 Eigen::Matrix<Complex, 6, 1> LinearFroudeKrylov::excitation(double frequency, double heading) const {
+  return excitations(frequency, {heading}).col(0);
+}
+
+Eigen::Matrix<Complex, 6, Eigen::Dynamic> LinearFroudeKrylov::excitations(double frequency,
+                                                                          const std::vector<double>& headings) const {
   const double k = frequency * frequency / gravity_;
-  const double kx = k * std::cos(heading), ky = k * std::sin(heading);
-  // On pieces with k * edge <= 0.5 the rule of degree 5 leaves (k edge)^6 / 6! ~ 2e-5 of the piece, with signs that
+  // On pieces with k * edge <= 0.8 the rule of degree 5 leaves (k edge)^6 / 6! ~ 4e-4 of the piece, with signs that
   // alternate along the wave.
-  const double longest = 0.5 / std::max(k, 1e-12);
-  Eigen::Matrix<Complex, 6, 1> X = Eigen::Matrix<Complex, 6, 1>::Zero();
+  const double longest = 0.8 / std::max(k, 1e-12);
+  std::vector<double> x, y;
+  std::array<std::vector<double>, 6> weight;  // -rho g e^{kz} (n, x_B x n) dS of each point
   for (const Triangle& t : wetted_) {
-    const Vector3 normal = 0.5 * (t.b - t.a).cross(t.c - t.a);
     const double edge = std::max({(t.b - t.a).norm(), (t.c - t.b).norm(), (t.a - t.c).norm()});
     const int cuts = std::max(1, static_cast<int>(std::ceil(edge / longest)));
-    Complex sum = 0.0;
-    Eigen::Vector3cd first_moment = Eigen::Vector3cd::Zero();
+    const Vector3 normal = -density_ * gravity_ / (2.0 * cuts * cuts) * (t.b - t.a).cross(t.c - t.a);
     const auto add_piece = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
       for (const QuadraturePoint& q : quadrature()) {
-        const Vector3 x = q.a * a + q.b * b + q.c * c;
-        const Complex pressure = q.weight * std::exp(k * x.z()) * std::polar(1.0, kx * x.x() + ky * x.y());
-        sum += pressure;
-        first_moment += pressure * x.cast<Complex>();
+        const Vector3 at = q.a * a + q.b * b + q.c * c;
+        const Vector3 force = q.weight * std::exp(k * at.z()) * normal;
+        const Vector3 moment = Vector3(at.x(), at.y(), at.z() + waterline_).cross(force);  // z from Bo
+        x.push_back(at.x());
+        y.push_back(at.y());
+        for (int i = 0; i < 3; ++i) {
+          weight[i].push_back(force[i]);
+          weight[3 + i].push_back(moment[i]);
+        }
       }
     };
     // cuts^2 congruent pieces: an upright one at (i, j) and, except along the last edge, a turned one beside it.
@@ -91,12 +101,17 @@ Eigen::Matrix<Complex, 6, 1> LinearFroudeKrylov::excitation(double frequency, do
         add_piece(corner, corner + u, corner + v);
         if (i + j + 1 < cuts) add_piece(corner + u, corner + u + v, corner + v);
       }
-    const Eigen::Vector3cd n = normal.cast<Complex>() / static_cast<double>(cuts * cuts);
-    first_moment.z() += waterline_ * sum;  // z from Bo
-    X.head<3>() -= sum * n;
-    X.tail<3>() += cross_matrix(normal).cast<Complex>() * first_moment / static_cast<double>(cuts * cuts);
   }
-  return density_ * gravity_ * X;
+  const double* const weights[6] = {weight[0].data(), weight[1].data(), weight[2].data(),
+                                    weight[3].data(), weight[4].data(), weight[5].data()};
+  Eigen::Matrix<Complex, 6, Eigen::Dynamic> X(6, headings.size());
+  for (std::size_t h = 0; h < headings.size(); ++h) {
+    double real[6], imag[6];
+    sum_phases(x.data(), y.data(), weights, static_cast<int>(x.size()), k * std::cos(headings[h]),
+               k * std::sin(headings[h]), real, imag);
+    for (int i = 0; i < 6; ++i) X(i, static_cast<int>(h)) = Complex(real[i], imag[i]);
+  }
+  return X;
 }
 
 }  // namespace stillhook

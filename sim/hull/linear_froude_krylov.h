@@ -21,6 +21,9 @@ class LinearFroudeKrylov {
 
   /// X per unit amplitude, N/m and N m/m. frequency rad/s, heading rad relative to B's x axis.
   Eigen::Matrix<std::complex<double>, 6, 1> excitation(double frequency, double heading) const;
+  /// The same for several headings at once, one a column: what does not depend on the heading is computed once.
+  Eigen::Matrix<std::complex<double>, 6, Eigen::Dynamic> excitations(double frequency,
+                                                                     const std::vector<double>& headings) const;
 
   /// m3, enclosed by S and the water plane.
   double volume() const { return volume_; }

@@ -124,8 +124,11 @@ class ForceElement {
   /// Advances the internal state to `now`.
   virtual void end_step(const Instant& /*now*/, double /*h*/, Memory) const {}
 
-  /// Added mass (kg, kg m, kg m^2) in the coordinates above, constant: M_total = M_rigid + this. Zero by default.
-  virtual void add_mass(MatrixX& /*M*/) const {}
+  /// Added mass (kg, kg m, kg m^2) in the coordinates above, constant within a phase: M_total = M_rigid + this. Zero by
+  /// default.
+  virtual void add_mass(MatrixX& /*M*/, int /*phase*/) const {}
+  /// Phases with whose start the added mass becomes another.
+  virtual std::vector<int> mass_changes() const { return {}; }
 
   /// Energy stored, J.
   virtual double potential_energy(const Instant&, Memory) const { return 0.0; }

@@ -60,7 +60,7 @@ void HhtStepper::solve_motion(SystemState& state, VectorX& acceleration, VectorX
   system_.forces(state, 0.0, work_, F);
   system_.constraint_jacobian(state, C_q_);
   system_.constraint_acceleration(state, gamma);
-  J_.topLeftCorner(n, n) = system_.mass();
+  J_.topLeftCorner(n, n) = system_.mass(state.phase);
   J_.topRightCorner(n, m) = lambda_scale_ * C_q_.transpose();
   J_.bottomLeftCorner(m, n) = lambda_scale_ * C_q_;
   J_.bottomRightCorner(m, m).setZero();
@@ -115,7 +115,7 @@ bool HhtStepper::residual(double h) {
   system_.constraint_values(next_, C_);
   F1_.noalias() -= C_q_.transpose() * next_.lambda;
   r_.head(n) = (al / (1.0 + al)) * F0_ - F1_;
-  r_.head(n).noalias() += (1.0 / (1.0 + al)) * (system_.mass() * next_.acceleration);
+  r_.head(n).noalias() += (1.0 / (1.0 + al)) * (*mass_ * next_.acceleration);
   r_.tail(m) = (lambda_scale_ / (beta_ * h * h)) * C_;
   if (r_.allFinite()) return true;
   for (int i = n - 1; i >= 0; --i)
@@ -127,7 +127,7 @@ void HhtStepper::factorise(double h) {
   ++factorisations_;
   const int n = system_.coordinates(), m = system_.constraints();
   system_.jacobian(next_, h, work_);
-  J_.topLeftCorner(n, n) = (1.0 / (1.0 + options_.alpha)) * system_.mass() - (gamma_ * h) * work_.jacobian.damping();
+  J_.topLeftCorner(n, n) = (1.0 / (1.0 + options_.alpha)) * *mass_ - (gamma_ * h) * work_.jacobian.damping();
   // xi = (dp, dtheta): dp = beta h^2 da, dtheta = J_r(turn) beta h^2 dw'
   for (std::size_t i = 0; i < turn_.size(); ++i) {
     const int c = 6 * static_cast<int>(i);
@@ -178,8 +178,21 @@ bool HhtStepper::converge(const SystemState& from, double h) {
   return false;
 }
 
+// Another added mass from this step on: the forces stay what they were, the acceleration follows them at once.
+void HhtStepper::follow_mass(SystemState& state) {
+  const MatrixX* mass = &system_.mass(state.phase);
+  if (mass == mass_) return;
+  if (mass_) {
+    state.acceleration = mass->ldlt().solve(*mass_ * state.acceleration).eval();
+    jerk_.setZero();
+    factorised_h_ = 0.0;
+  }
+  mass_ = mass;
+}
+
 bool HhtStepper::step(SystemState& state, double h, std::span<const DriveState> drives) {
   if (!started_) start(state);
+  follow_mass(state);
   // `state` is left alone until the step has converged: elements prepare on the copy, which still stands at t_n.
   next_.t = state.t;
   next_.body = state.body;
@@ -198,7 +211,7 @@ bool HhtStepper::step(SystemState& state, double h, std::span<const DriveState> 
   // The forces that open the next step, from the equation just solved: this saves an evaluation, and an error in F0
   // dies out by al/(1 + al) a step.
   F0_ *= options_.alpha / (1.0 + options_.alpha);
-  F0_.noalias() += (1.0 / (1.0 + options_.alpha)) * (system_.mass() * next_.acceleration);
+  F0_.noalias() += (1.0 / (1.0 + options_.alpha)) * (*mass_ * next_.acceleration);
   jerk_ = (next_.acceleration - a0_) / h;
   last_h_ = h;
   system_.end_step(next_, h, work_);

@@ -49,6 +49,7 @@ class HhtStepper {
   enum class Renew { never, once, always };
 
   void solve_motion(SystemState& state, VectorX& acceleration, VectorX& lambda, VectorX& F);
+  void follow_mass(SystemState& state);
   void predict(const SystemState& from, double h);
   void apply(const SystemState& from, double h);
   bool residual(double h);
@@ -59,6 +60,7 @@ class HhtStepper {
   const MultibodySystem& system_;
   HhtOptions options_;
   double beta_, gamma_, lambda_scale_;
+  const MatrixX* mass_ = nullptr;  // of the phase
   SystemWorkspace work_;
   SystemState next_;
   VectorX F0_, F1_, C_, r_, delta_;  // F0_ belongs to the state reached by the last step

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace stillhook {
 
@@ -15,13 +16,20 @@ void MultibodySystem::finish() {
     state_size_ += e->state_size();
     scratch_size_ += e->scratch_size();
   }
-  mass_ = MatrixX::Zero(coordinates(), coordinates());
+  MatrixX rigid = MatrixX::Zero(coordinates(), coordinates());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const int r = 6 * static_cast<int>(i);
-    mass_.block<3, 3>(r, r) = bodies[i].mass * Matrix3::Identity();
-    mass_.block<3, 3>(r + 3, r + 3) = bodies[i].inertia;
+    rigid.block<3, 3>(r, r) = bodies[i].mass * Matrix3::Identity();
+    rigid.block<3, 3>(r + 3, r + 3) = bodies[i].inertia;
   }
-  for (const auto& e : elements) e->add_mass(mass_);
+  std::set<int> phases{0};
+  for (const auto& e : elements)
+    for (const int phase : e->mass_changes()) phases.insert(phase);
+  masses_.clear();
+  for (const int phase : phases) {
+    masses_.push_back({phase, rigid});
+    for (const auto& e : elements) e->add_mass(masses_.back().M, phase);
+  }
   rows_.clear();
   dropped_.clear();
   for (std::size_t j = 0; j < joints.size(); ++j)
@@ -195,7 +203,7 @@ void MultibodySystem::joint_reaction(const SystemState& state, int j, Vector3& f
 double MultibodySystem::kinetic_energy(const SystemState& state) const {
   VectorX u(coordinates());
   for (std::size_t i = 0; i < bodies.size(); ++i) u.segment<6>(6 * i) << state.body[i].v_WC, state.body[i].w_B;
-  return 0.5 * u.dot(mass_ * u);
+  return 0.5 * u.dot(mass(state.phase) * u);
 }
 
 double MultibodySystem::potential_energy(SystemState& state, SystemWorkspace& work) const {

@@ -61,7 +61,12 @@ class MultibodySystem {
   int coordinates() const { return 6 * static_cast<int>(bodies.size()); }
   int constraints() const { return static_cast<int>(rows_.size()); }
   int element_state_size() const { return state_size_; }
-  const MatrixX& mass() const { return mass_; }
+  const MatrixX& mass(int phase = 0) const {
+    const Mass* valid = &masses_.front();
+    for (const Mass& mass : masses_)
+      if (phase >= mass.from_phase) valid = &mass;
+    return valid->M;
+  }
   SystemWorkspace make_workspace() const;
   Memory memory(int element, SystemState& state, SystemWorkspace& work) const;
 
@@ -103,7 +108,11 @@ class MultibodySystem {
     int joint, row;
   };
   std::vector<Row> rows_, dropped_;
-  MatrixX mass_;
+  struct Mass {
+    int from_phase;
+    MatrixX M;
+  };
+  std::vector<Mass> masses_;  // ascending; the first holds from the start
   std::vector<int> state_offset_, scratch_offset_;
   int state_size_ = 0, scratch_size_ = 0;
 };

@@ -154,9 +154,9 @@ TEST_CASE("constraints with an algorithm that has none are refused, naming those
   options.local_algorithm = "bobyqa";
   CHECK_THROWS_WITH(search(problem, options), Catch::Contains("bobyqa") && Catch::Contains("cobyla"));
   options.local_algorithm = "cobyla ";
-  CHECK_THROWS_WITH(search(problem, options), Catch::Contains("there is no algorithm"));
+  CHECK_THROWS_WITH(search(problem, options), Catch::Contains("must be none or one of cobyla, got \"cobyla \""));
   options.local_algorithm = "isres";
-  CHECK_THROWS_WITH(search(problem, options), Catch::Contains("not a local algorithm"));
+  CHECK_THROWS_WITH(search(problem, options), Catch::Contains("must be a local algorithm"));
   problem.constraint_names.clear();
   options.global_algorithm = "crs2";
   options.local_algorithm = "bobyqa";

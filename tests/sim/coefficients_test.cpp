@@ -123,7 +123,7 @@ TEST_CASE("a matrix about another point has the same power", "[coefficients]") {
 TEST_CASE("the shipped coefficients pass every self-check", "[coefficients]") {
   const HydrodynamicCoefficients c = crane();
   const std::vector<SelfCheck> checks = self_checks(c);
-  CHECK(checks.size() == 8);
+  CHECK(checks.size() == 12);  // all but the water plane's, whose area the file does not give
   for (const SelfCheck& check : checks) {
     INFO(check.name << " " << check.detail << " " << check.value);
     CHECK(check.passed());

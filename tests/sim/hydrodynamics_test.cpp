@@ -40,8 +40,15 @@ BodySpec crane(HydrodynamicsSpec::Kind kind) {
   return spec;
 }
 
+std::unique_ptr<ForceElement> build_from(const BodySpec& spec, int body, const Mesh& hull, const SeaSpec& water) {
+  std::vector<std::string> warnings;
+  HydrodynamicsBody b{{&spec, &hull, 0.0, 0.0, 0.0, kHeading}, body, Vector6::Zero()};
+  const auto set = coefficient_set({&b.afloat, 1}, water, {}, warnings);
+  return build_hydrodynamics({b}, set, waves(), water, {}, warnings);
+}
+
 std::unique_ptr<ForceElement> build(const BodySpec& spec, int body = 1) {
-  return build_hydrodynamics(spec, body, kHeading, crane_mesh(), waves(), sea(), Vector6::Zero());
+  return build_from(spec, body, crane_mesh(), sea());
 }
 
 /// Two bodies in general poses; the second, the hull, near its mean attitude.
@@ -131,7 +138,7 @@ TEST_CASE("hydrodynamic derivatives are exact", "[hydrodynamics]") {
 TEST_CASE("added mass keeps the kinetic energy of the velocity at the reference point", "[hydrodynamics]") {
   const BodySpec spec = crane(HydrodynamicsSpec::Kind::constant);
   MatrixX M = MatrixX::Zero(12, 12);
-  build(spec)->add_mass(M);
+  build(spec)->add_mass(M, 0);
   CHECK(M.topRows(6).norm() == 0.0);
   CHECK((M - M.transpose()).norm() < 1e-12 * M.norm());
   // The hull in its mean attitude: velocity of Bo by rigid-body kinematics, turned into H by hand.
@@ -233,7 +240,7 @@ TEST_CASE("two coupled hulls exchange forces", "[hydrodynamics]") {
   const HydrodynamicsElement element("pair", hulls, A, std::make_unique<ConstantRadiation>(B), nullptr);
   CHECK(element.channels().size() == 24);
   MatrixX M = MatrixX::Zero(12, 12);
-  element.add_mass(M);
+  element.add_mass(M, 0);
   CHECK(M(8, 2) == Approx(3e5));  // heave on heave, bodies 1 and 0
   CHECK((M - M.transpose()).norm() < 1e-12 * M.norm());
   Held held(element);
@@ -256,19 +263,26 @@ TEST_CASE("a body without hydrodynamics has no element", "[hydrodynamics]") {
 }
 
 TEST_CASE("added mass about the centre of gravity at a frequency", "[hydrodynamics]") {
-  BodySpec spec = crane(HydrodynamicsSpec::Kind::table);
-  spec.cog = Vector3(0.0, 0.0, 4.541);
+  const Vector3 cog(0.0, 0.0, 4.541);
   const HydrodynamicCoefficients c = read_coefficient_file(kCraneFile);
-  const Matrix6 A = added_mass_at(spec, 0.628);
+  const Matrix6 A = added_mass_at(c, 0, cog, 0.628);
   CHECK(A(2, 2) == Approx(c.frequency[3].A(2, 2)).epsilon(0.01));
   // Rolling about C, port side up, moves Bo, which lies z below C, to port with z w_x: A44 + 2 z A24 + z^2 A22.
   const double z = 4.541;
   CHECK(
       A(3, 3) ==
       Approx(c.frequency[3].A(3, 3) + 2.0 * z * c.frequency[3].A(1, 3) + z * z * c.frequency[3].A(1, 1)).epsilon(0.02));
-  CHECK(added_mass_at(spec, std::numeric_limits<double>::infinity())(2, 2) == c.A_inf(2, 2));
-  spec.hydrodynamics.kind = HydrodynamicsSpec::Kind::none;
-  CHECK(added_mass_at(spec, 1.0).isZero());
+  CHECK(added_mass_at(c, 0, cog, std::numeric_limits<double>::infinity())(2, 2) == c.A_inf(2, 2));
+  // Between two frequencies of the table, above it, and from the retardation functions where there is no table.
+  const auto &low = c.frequency[3], &high = c.frequency[4];
+  const double between = added_mass_at(c, 0, Vector3::Zero(), 0.5 * (low.frequency + high.frequency))(2, 2);
+  CHECK(between == Approx(0.5 * (low.A(2, 2) + high.A(2, 2))));
+  const double above = added_mass_at(c, 0, Vector3::Zero(), 2.0 * c.frequency.back().frequency)(2, 2);
+  CHECK(above - c.A_inf(2, 2) == Approx(0.25 * (c.frequency.back().A(2, 2) - c.A_inf(2, 2))));
+  HydrodynamicCoefficients kernels = c;
+  kernels.frequency.clear();
+  CHECK(added_mass_at(kernels, 0, Vector3::Zero(), 0.628)(2, 2) ==
+        added_mass_from_kernels(c.A_inf, c.retardation, 0.628)(2, 2));
 }
 
 TEST_CASE("hydrodynamics that cannot be are refused by name", "[hydrodynamics]") {
@@ -316,7 +330,7 @@ TEST_CASE("hydrodynamics that cannot be are refused by name", "[hydrodynamics]")
     field = "coefficient_file", part = "no volume";
   }
   try {
-    build_hydrodynamics(spec, 0, kHeading, hull, waves(), water, Vector6::Zero());
+    build_from(spec, 0, hull, water);
     FAIL_CHECK("was accepted");
   } catch (const SpecificationError& error) {
     INFO(error.what());

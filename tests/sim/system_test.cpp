@@ -18,7 +18,7 @@ class AddedMass : public ForceElement {
   explicit AddedMass(const MatrixX& A) : ForceElement(std::string("hulls")), A_(A) {}
   void add_forces(const Instant&, double, Memory, ForceSum&) const override {}
   void add_jacobian(const Instant&, double, Memory, JacobianSum&) const override {}
-  void add_mass(MatrixX& M) const override { M += A_; }
+  void add_mass(MatrixX& M, int) const override { M += A_; }
 
  private:
   MatrixX A_;

@@ -1,0 +1,285 @@
+#include "sim/hull/coefficient_source.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <iomanip>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "sim/hull/coefficient_file.h"
+#include "sim/hull/database.h"
+#include "sim/hull/linear_froude_krylov.h"
+#include "sim/hull/state_space_fit.h"
+
+namespace stillhook {
+namespace {
+
+// Changes whenever the same input would give other numbers.
+constexpr const char* kMethodVersion = "rankine 1";
+
+using Set = std::shared_ptr<const HydrodynamicCoefficients>;
+
+/// FNV-1a, 64 bit.
+class Hash {
+ public:
+  void add(const void* data, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i) {
+      value_ ^= static_cast<const unsigned char*>(data)[i];
+      value_ *= 1099511628211ull;
+    }
+  }
+  void add(double value) { add(&value, sizeof value); }
+  void add(const Vector3& v) { add(v.data(), 3 * sizeof(double)); }
+  void add(const std::string& text) { add(text.data(), text.size()); }
+  std::string text() const {
+    std::ostringstream out;
+    out << std::hex << std::setw(16) << std::setfill('0') << value_;
+    return out.str();
+  }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037ull;
+};
+
+std::string key_of(const std::vector<PanelHull>& hulls, const PanelMethodOptions& o) {
+  Hash hash;
+  hash.add(std::string(kMethodVersion));
+  if (hulls.size() > 1) hash.add(o.gap_damping);
+  for (const double value : {o.density, o.gravity, o.lowest, o.highest, static_cast<double>(o.frequencies),
+                             static_cast<double>(o.headings), o.refinement, o.panel_length})
+    hash.add(value);
+  for (const PanelHull& hull : hulls) {
+    hash.add(hull.waterline);
+    hash.add(hull.box_size);
+    hash.add(hull.box_centre);
+    for (const Vector3& vertex : hull.mesh.vertices) hash.add(vertex);
+    for (const auto& triangle : hull.mesh.triangles) hash.add(triangle.data(), sizeof triangle);
+    if (hulls.size() == 1) break;
+    hash.add(Vector3(hull.x, hull.y, hull.yaw));
+  }
+  return hash.text();
+}
+
+/// The set as it reads back from a file of `folder`, under its name when the folder is the cache.
+Set stored(const HydrodynamicCoefficients& set, const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!file.empty()) {
+    fs::create_directories(file.parent_path(), error);
+    try {
+      write_coefficient_file(file.string(), set);
+      return std::make_shared<const HydrodynamicCoefficients>(read_coefficient_file(file.string()));
+    } catch (const SpecificationError&) {
+      // No place to keep it: by way of a temporary file the numbers are the same.
+    }
+  }
+  const fs::path scratch = fs::temp_directory_path() / ("stillhook-" + std::to_string(getpid()) + ".csv");
+  write_coefficient_file(scratch.string(), set);
+  Set result = std::make_shared<const HydrodynamicCoefficients>(read_coefficient_file(scratch.string()));
+  fs::remove(scratch, error);
+  return result;
+}
+
+double rounded_draft(double waterline) { return kDraftStep * std::round(waterline / kDraftStep); }
+
+std::string entry_of(const BodySpec& body) { return "bodies." + body.name + ".hydrodynamics"; }
+
+/// A file of the project's own format, read again only when it has changed: every model of a search asks for it.
+Set read_table(const std::string& path) {
+  struct Entry {
+    std::filesystem::file_time_type time;
+    Set set;
+  };
+  static std::mutex mutex;
+  static std::map<std::string, Entry> known;
+  const std::lock_guard lock(mutex);
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(path, error);
+  const auto it = known.find(path);
+  if (!error && it != known.end() && it->second.time == time) return it->second.set;
+  return (known[path] = {time, std::make_shared<const HydrodynamicCoefficients>(read_coefficient_file(path))}).set;
+}
+
+Set read_file(const BodySpec& body, const HullAfloat& hull, const SeaSpec& sea) {
+  const HydrodynamicsSpec& h = body.hydrodynamics;
+  if (h.kind == HydrodynamicsSpec::Kind::table)
+    return read_table(h.coefficient_file);
+  const MeshProperties size = properties_of(*hull.mesh);
+  DatabaseOptions options;
+  // WAMIT's files hold no volume: that of the hull as it floats, so that only BEMIO's can differ from it.
+  const double volume = LinearFroudeKrylov(*hull.mesh, hull.waterline, sea.density, sea.gravity).volume();
+  const bool bemio = h.coefficient_file.ends_with(".h5");
+  options.frame.bodies = {{h.database_origin, bemio ? 0.0 : volume}};
+  options.frame.length = std::max(size.high.x() - size.low.x(), size.high.y() - size.low.y());
+  options.frame.port_starboard = h.port_starboard;
+  options.wamit.ulen = h.database_length;
+  options.wamit.density = sea.density;
+  options.wamit.gravity = sea.gravity;
+  return std::make_shared<const HydrodynamicCoefficients>(read_database(h.coefficient_file, options));
+}
+
+/// K(t) of a causal, passive model that meets A(w) and B(w) with A_inf: the band ends where B has not died out, so the
+/// transform of B alone would have to guess its tail; A - A_inf knows it (Kramers-Kronig). That such a model exists is
+/// itself the check that A, B and A_inf belong together.
+RetardationFunctions causal_kernels(const HydrodynamicCoefficients& set) {
+  constexpr double kInterval = 0.1, kDuration = 60.0;  // s
+  constexpr std::array<double, 3> kTolerances{0.02, 0.03, 0.05};
+  StateSpaceFit fit;
+  for (const double tolerance : kTolerances) try {
+      StateSpaceOptions options;
+      options.tolerance = tolerance;
+      fit = fit_state_space(set, options).fit;
+      break;
+    } catch (const SpecificationError&) {
+      if (tolerance == kTolerances.back()) throw;
+    }
+  RetardationFunctions K;
+  K.interval = kInterval;
+  const int samples = static_cast<int>(std::lround(kDuration / kInterval)) + 1;
+  std::vector<MatrixX> values;
+  for (int m = 0; m < samples; ++m) values.push_back(fit.retardation(m * kInterval));
+  for (int i = 0; i < set.modes(); ++i)
+    for (int j = 0; j < set.modes(); ++j) {
+      RetardationKernel kernel{i, j, {}};
+      for (const MatrixX& value : values) kernel.value.push_back(value(i, j));
+      if (std::any_of(kernel.value.begin(), kernel.value.end(), [](double v) { return v != 0.0; }))
+        K.kernels.push_back(std::move(kernel));
+    }
+  return K;
+}
+
+std::vector<std::string> listed(const std::string& text) {
+  std::vector<std::string> names(1);
+  for (const char letter : text) {
+    if (letter == ',')
+      names.emplace_back();
+    else if (letter != ' ')
+      names.back() += letter;
+  }
+  std::erase(names, "");
+  return names;
+}
+
+void check(const HydrodynamicCoefficients& set, const PanelMethodSpec& method, std::vector<std::string>& warnings) {
+  require_self_checks(set, listed(method.accepted_checks));
+  for (const SelfCheck& result : self_checks(set))
+    if (!result.passed()) {
+      std::ostringstream sentence;
+      sentence << set.source << ": the self-check \"" << result.key << "\" fails (" << result.value << ", at most "
+               << result.limit << "; " << result.detail << ") and is accepted by name";
+      warnings.push_back(sentence.str());
+    }
+}
+
+}  // namespace
+
+std::string cache_folder() {
+  for (const auto& [variable, below] : {std::pair{"STILLHOOK_CACHE", ""}, std::pair{"XDG_CACHE_HOME", "stillhook"},
+                                        std::pair{"HOME", ".cache/stillhook"}}) {
+    const char* value = std::getenv(variable);
+    if (value && *value) return (std::filesystem::path(value) / below).string();
+  }
+  return {};
+}
+
+double reference_height(std::span<const HullAfloat> hulls, const HullAfloat& hull) {
+  return rounded_draft(hull.waterline) - rounded_draft(hulls.front().waterline);
+}
+
+std::vector<PanelHull> panel_hulls(std::span<const HullAfloat> hulls) {
+  std::vector<PanelHull> result;
+  for (const HullAfloat& hull : hulls) {
+    PanelHull p;
+    p.name = hull.body->name;
+    p.mesh = *hull.mesh;
+    if (hull.body->hull.shape == HullSpec::Shape::box) {
+      p.box_size = hull.body->hull.size;
+      p.box_centre = hull.body->hull.centre;
+    }
+    p.waterline = rounded_draft(hulls.front().waterline);
+    const double lift = reference_height(hulls, hull);
+    for (Vector3& vertex : p.mesh.vertices) vertex.z() -= lift;
+    p.box_centre.z() -= lift;
+    // Where coupled hulls lie is rounded too.
+    p.x = kDraftStep * std::round(hull.x / kDraftStep);
+    p.y = kDraftStep * std::round(hull.y / kDraftStep);
+    p.yaw = 1e-3 * std::round(hull.yaw / 1e-3);
+    result.push_back(std::move(p));
+  }
+  return result;
+}
+
+PanelMethodOptions panel_options(const SeaSpec& sea, const PanelMethodSpec& method, double panel_length) {
+  PanelMethodOptions options;
+  options.density = sea.density;
+  options.gravity = sea.gravity;
+  options.lowest = method.lowest;
+  options.highest = method.highest;
+  options.frequencies = method.frequencies;
+  options.headings = method.headings;
+  options.refinement = method.refinement;
+  options.panel_length = panel_length;
+  return options;
+}
+
+Set cached_panel_method(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
+                        const HydroProgress& progress, bool* from_cache, PanelMethodReport* report) {
+  static std::mutex mutex;
+  static std::map<std::string, Set> known;
+  // One computation at a time: whoever asks for the same set meanwhile gets this one.
+  const std::lock_guard lock(mutex);
+  const std::string key = key_of(hulls, options);
+  if (from_cache) *from_cache = true;
+  if (const auto it = known.find(key); it != known.end()) return it->second;
+  std::filesystem::path file;
+  if (const std::string folder = cache_folder(); !folder.empty())
+    file = std::filesystem::path(folder) / ("hull-" + key + ".csv");
+  std::error_code error;
+  if (!file.empty() && std::filesystem::exists(file, error)) {
+    try {
+      return known[key] = std::make_shared<const HydrodynamicCoefficients>(read_coefficient_file(file.string()));
+    } catch (const SpecificationError&) {
+      // Not what was written: computed anew and replaced.
+      std::filesystem::remove(file, error);
+    }
+  }
+  if (from_cache) *from_cache = false;
+  HydrodynamicCoefficients set = panel_method(hulls, options, report, progress);
+  set.retardation = causal_kernels(set);
+  return known[key] = stored(set, file);
+}
+
+Set coefficient_set(std::span<const HullAfloat> hulls, const SeaSpec& sea, const PanelMethodSpec& method,
+                    std::vector<std::string>& warnings, const HydroProgress& progress) {
+  using Kind = HydrodynamicsSpec::Kind;
+  const BodySpec& body = *hulls.front().body;
+  const Kind kind = body.hydrodynamics.kind;
+  if (kind == Kind::none || kind == Kind::constant) return nullptr;
+  const char* field = kind == Kind::panels ? "kind" : "coefficient_file";
+  try {
+    double panel = 0.0;
+    for (const HullAfloat& hull : hulls)
+      if (const double own = hull.body->hydrodynamics.panel_length; own > 0.0 && (panel == 0.0 || own < panel))
+        panel = own;
+    Set set = kind == Kind::panels
+                  ? cached_panel_method(panel_hulls(hulls), panel_options(sea, method, panel), progress, nullptr)
+                  : read_file(body, hulls.front(), sea);
+    check(*set, method, warnings);
+    if (set->description.find("resonance of the gap") != std::string::npos)
+      warnings.push_back(body.name + ": " + set->description);
+    if (set->hulls() != static_cast<int>(hulls.size()))
+      throw SpecificationError(set->source, "", "holds the coefficients of several hulls, one body needs those of one");
+    return set;
+  } catch (const SpecificationError& error) {
+    throw SpecificationError(entry_of(body), field, error.what());
+  }
+}
+
+}  // namespace stillhook

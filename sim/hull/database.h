@@ -1,0 +1,21 @@
+// Hydrodynamic coefficients from any file the project reads, chosen by the end of its name.
+#pragma once
+
+#include <string>
+
+#include "sim/hull/bemio_file.h"
+#include "sim/hull/coefficient_file.h"
+#include "sim/hull/wamit_file.h"
+
+namespace stillhook {
+
+struct DatabaseOptions {
+  DatabaseFrame frame;  // not needed for the project's own format, which says all of it
+  WamitUnits wamit;     // for WAMIT files only
+};
+
+/// .csv: the project's own; .1, .2, .3, .hst: the WAMIT files of that base name; .h5: BEMIO. Throws SpecificationError
+/// as the readers do, and for any other ending one that names these. Does not run the self-checks.
+HydrodynamicCoefficients read_database(const std::string& path, const DatabaseOptions& options = {});
+
+}  // namespace stillhook

@@ -1,0 +1,408 @@
+#include "sim/hull/panel_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "sim/hull/linear_froude_krylov.h"
+#include "sim/hull/rankine/frequency_response.h"
+#include "sim/hull/rankine/hull_modes.h"
+#include "sim/specification.h"
+
+namespace stillhook {
+namespace {
+
+using namespace rankine;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+// Longest wave over shortest in a part of the band is the square of this.
+constexpr double kBandRatio = 1.6;
+// Cells in the shortest wave of a part: away from the hull, and at it; panels of the hull in it.
+constexpr double kCellsPerWave = 10.0, kCellsAtHull = 20.0, kPanelsPerWave = 7.0;
+// Panels across a hull and cells at its waterline in its breadth, whatever the waves.
+constexpr double kPanelsAcross = 8.0, kCellsAcross = 12.0;
+constexpr double kGrowth = 0.25;
+// The beach in longest waves, with Beach::strength: reflects 1.5 % of the amplitude (one-dimensional estimate).
+constexpr double kBeachWidth = 1.2;
+// Cells across the gap between two hulls.
+constexpr double kCellsInGap = 5.0;
+// Phase of the wave at half the hull's length from one frequency of the excitation to the next, rad.
+constexpr double kPhaseStep = 0.5;
+
+double wave_length(double frequency, double gravity) { return kTwoPi * gravity / (frequency * frequency); }
+
+double automatic_panel(const Layout& layout) {
+  double breadth = std::numeric_limits<double>::max();
+  for (const Placement& p : layout.hulls) breadth = std::min({breadth, p.breadth, p.length});
+  return breadth / kPanelsAcross;
+}
+
+std::vector<double> frequencies_of(const PanelMethodOptions& options) {
+  if (!options.chosen.empty()) return options.chosen;
+  std::vector<double> frequencies(options.frequencies);
+  for (int i = 0; i < options.frequencies; ++i)
+    frequencies[i] = options.lowest * std::pow(options.highest / options.lowest, i / (options.frequencies - 1.0));
+  return frequencies;
+}
+
+std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options) {
+  const std::vector<double> frequencies = frequencies_of(options);
+  const int parts = std::max(
+      1, static_cast<int>(std::ceil(std::log(frequencies.back() / frequencies.front()) / std::log(kBandRatio))));
+  const double ratio = std::pow(frequencies.back() / frequencies.front(), 1.0 / parts);
+  std::vector<PanelBand> bands;
+  std::size_t first = 0;
+  for (int p = 1; p <= parts; ++p) {
+    const double end = p == parts ? 2.0 * frequencies.back() : frequencies.front() * std::pow(ratio, p);
+    std::size_t last = first;
+    while (last < frequencies.size() && frequencies[last] < end * (1.0 - 1e-9)) ++last;
+    if (last == first) continue;
+    PanelBand band;
+    band.frequencies.assign(frequencies.begin() + first, frequencies.begin() + last);
+    // The last one is the first of the next part, so that no frequency lies between two parts.
+    if (last < frequencies.size()) band.frequencies.push_back(frequencies[last]);
+    band.from = band.frequencies.front();
+    band.to = band.frequencies.back();
+    const double shortest = wave_length(band.to, options.gravity), longest = wave_length(band.from, options.gravity);
+    const double panel = options.panel_length > 0.0 ? options.panel_length : automatic_panel(layout);
+    band.panel_length = std::min(panel, shortest / kPanelsPerWave) / options.refinement;
+    band.far = shortest / kCellsPerWave / options.refinement;
+    band.near = std::min(shortest / kCellsAtHull, panel * kPanelsAcross / kCellsAcross) / options.refinement;
+    if (layout.gap > 0.0) band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
+    band.width = kBeachWidth * longest;
+    bands.push_back(band);
+    first = last;
+  }
+  return bands;
+}
+
+/// Headings around the circle that resolve exp(i k R cos b), R half the length of the longest hull, with a margin.
+int headings_for(const Layout& layout, const PanelMethodOptions& options) {
+  if (options.headings > 0) return options.headings;
+  double length = 0.0;
+  for (const Placement& p : layout.hulls) length = std::max({length, p.length, p.breadth});
+  const double highest = frequencies_of(options).back();
+  const double k = highest * highest / options.gravity;
+  return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));
+}
+
+/// Weights of the cubic through the four nodes around x (fewer nodes: of lower order), first node and weights.
+std::pair<int, std::vector<double>> cubic_weights(const std::vector<double>& nodes, double x) {
+  const int n = static_cast<int>(nodes.size()), order = std::min(4, n);
+  int first = static_cast<int>(std::upper_bound(nodes.begin(), nodes.end(), x) - nodes.begin()) - order / 2;
+  first = std::clamp(first, 0, n - order);
+  std::vector<double> weights(order, 1.0);
+  for (int i = 0; i < order; ++i)
+    for (int j = 0; j < order; ++j)
+      if (i != j) weights[i] *= (x - nodes[first + j]) / (nodes[first + i] - nodes[first + j]);
+  return {first, weights};
+}
+
+void require_options(const PanelMethodOptions& o) {
+  const auto bad = [](const char* field, const char* rule) { throw SpecificationError("panel method", field, rule); };
+  if (!(o.density > 0.0)) bad("density", "must be > 0");
+  if (!(o.gravity > 0.0)) bad("gravity", "must be > 0");
+  if (!(o.lowest > 0.0 && o.highest > o.lowest)) bad("highest", "must be above the lowest frequency, which must be > 0");
+  for (std::size_t i = 0; i < o.chosen.size(); ++i)
+    if (!(o.chosen[i] > 0.0) || (i > 0 && !(o.chosen[i] > o.chosen[i - 1])))
+      bad("chosen", "must be ascending frequencies > 0");
+  if (o.frequencies < 4) bad("frequencies", "must be at least 4");
+  if (o.headings != 0 && o.headings < 4) bad("headings", "must be at least 4, or 0");
+  if (!(o.gap_damping >= 0.0)) bad("gap_damping", "must be >= 0");
+  if (!(o.refinement > 0.0)) bad("refinement", "must be > 0");
+}
+
+template <class Scalar>
+using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Rows and columns of a class's modes into the matrix of all.
+template <class Scalar>
+void scatter(const Matrix<Scalar>& block, const std::vector<int>& modes, Matrix<Scalar>& all) {
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    for (std::size_t j = 0; j < modes.size(); ++j) all(modes[i], modes[j]) = block(i, j);
+}
+
+/// -int psi_j n_i rho dS by a response matrix of the hull panels.
+MatrixX inertia(const MatrixX& response, const ClassModes& modes, const VectorX& weight) {
+  return -modes.normal.transpose() * weight.asDiagonal() * (response * modes.normal);
+}
+
+class Computation {
+ public:
+  Computation(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options, PanelMethodReport& report,
+              const std::function<bool(double, const std::string&)>& progress)
+      : hulls_(hulls), options_(options), report_(report), progress_(progress), layout_(place(hulls)),
+        to_middle_(to_middle(layout_)), modes_(6 * static_cast<int>(hulls.size())) {}
+
+  HydrodynamicCoefficients run() {
+    report_.bands = bands_of(layout_, options_);
+    describe();
+    limits();
+    double done = 0.0, all = 0.0;
+    for (const PanelBand& band : report_.bands) all += static_cast<double>(band.frequencies.size());
+    for (PanelBand& band : report_.bands) {
+      tell(done / all, band);
+      solve(band);
+      done += static_cast<double>(band.frequencies.size());
+    }
+    add_froude_krylov();
+    if (report_.gap_rise > kGapResonance) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "; resonance of the gap: the water between the hulls rises " << report_.gap_rise
+           << " times a hull's motion at " << report_.gap_frequency << " rad/s, with damping " << options_.gap_damping;
+      set_.description += text.str();
+    }
+    if (progress_) progress_(1.0, "done");
+    return std::move(set_);
+  }
+
+ private:
+  void tell(double share, const PanelBand& band) const {
+    if (!progress_) return;
+    std::ostringstream text;
+    text.precision(3);
+    text << band.from << " to " << band.to << " rad/s";
+    if (!progress_(share, text.str())) throw std::runtime_error("interrupted");
+  }
+
+  void describe() {
+    set_.source = "panel method";
+    set_.description = "Rankine panel method of stillhook, zero speed, deep water, upright at the mean draft";
+    set_.density = options_.density;
+    set_.gravity = options_.gravity;
+    set_.waterline = hulls_[0].waterline;
+    for (const Placement& p : layout_.hulls) set_.length = std::max({set_.length, p.length, p.breadth});
+    set_.excitation.modes = modes_;
+    const int headings = headings_for(layout_, options_);
+    for (int h = 0; h < headings; ++h) set_.excitation.headings.push_back(kTwoPi * h / headings);
+    for (const PanelBand& band : report_.bands)
+      for (std::size_t f = 0; f + 1 < band.frequencies.size(); ++f) {
+        const double a = band.frequencies[f], b = band.frequencies[f + 1];
+        const double phase = 0.5 * set_.length * (b * b - a * a) / options_.gravity;
+        const int parts = std::max(1, static_cast<int>(std::ceil(phase / kPhaseStep)));
+        for (int i = 0; i < parts; ++i) set_.excitation.frequencies.push_back(a + i * (b - a) / parts);
+      }
+    set_.excitation.frequencies.push_back(report_.bands.back().to);
+    set_.excitation.value.resize(set_.excitation.frequencies.size() * set_.excitation.headings.size() * modes_);
+  }
+
+  /// A(0) and A_inf, on panels half as long as those of the band.
+  void limits() {
+    const HullPanels panels = panels_of(hulls_, layout_, 0.5 * report_.bands.front().panel_length);
+    const VectorX weight = panel_weights(panels, options_.density);
+    for (std::size_t k = 0; k < hulls_.size(); ++k) {
+      const HullPanels one = only(panels, static_cast<int>(k));
+      set_.volume.push_back(panels.volume(static_cast<int>(k)));
+      set_.waterplane.push_back(waterplane_area(one));
+    }
+    FrequencyCoefficients zero;
+    zero.A = zero.B = set_.A_inf = MatrixX::Zero(modes_, modes_);
+    for (const BoundaryClass& c : limit_problem(panels)) {
+      const ClassModes modes = modes_of(panels, layout_, c.parity);
+      if (modes.modes.empty()) continue;
+      scatter<double>(inertia(c.local, modes, weight), modes.modes, set_.A_inf);
+      scatter<double>(inertia(c.hull_response, modes, weight), modes.modes, zero.A);
+    }
+    symmetrise(zero.A, zero.A);
+    symmetrise(set_.A_inf, zero.A);
+    A_inf_middle_ = set_.A_inf;
+    set_.A_inf = about_origin(set_.A_inf);
+    zero.A = about_origin(zero.A);
+    set_.frequency.push_back(std::move(zero));
+  }
+
+  /// A, B and X_D of one part of the band.
+  void solve(PanelBand& band) {
+    const HullPanels panels = panels_of(hulls_, layout_, band.panel_length);
+    SurfacePanels surface = free_surface(panels, {band.near, band.far, kGrowth, band.width});
+    mark_gap(layout_, panels, surface);
+    record_sizes(panels, surface, band);
+    const VectorX weight = panel_weights(panels, options_.density);
+    const std::size_t count = band.frequencies.size();
+    MatrixX A_inf = MatrixX::Zero(modes_, modes_);
+    std::vector<Matrix<Complex>> A(count, Matrix<Complex>::Zero(modes_, modes_));
+    for (const BoundaryClass& c : boundary_problem(panels, surface)) {
+      const ClassModes modes = modes_of(panels, layout_, c.parity);
+      if (modes.modes.empty()) continue;
+      scatter<double>(inertia(c.local, modes, weight), modes.modes, A_inf);
+      const std::vector<Matrix<Complex>> v(count, modes.normal.cast<Complex>());
+      const std::vector<FrequencyResponse> responses =
+          frequency_responses(c, surface, beach_of(band), options_.gravity, band.frequencies, v);
+      watch_gap(surface, modes, responses);
+      std::vector<Matrix<Complex>> weighted;
+      for (std::size_t f = 0; f < count; ++f) {
+        weighted.push_back(weight.cast<Complex>().asDiagonal() * responses[f].hull);
+        scatter<Complex>(-modes.normal.transpose().cast<Complex>() * weighted[f], modes.modes, A[f]);
+        band.iterations = std::max(band.iterations, responses[f].iterations);
+      }
+      excite(panels, c.parity, modes, weighted, band);
+    }
+    const bool last = &band == &report_.bands.back();
+    for (std::size_t f = 0; f < count - (last ? 0 : 1); ++f) {
+      // The error of the panels is nearly the same at every frequency: it goes with A_inf of the same panels.
+      FrequencyCoefficients at{band.frequencies[f], A_inf_middle_ + A[f].real() - A_inf,
+                               band.frequencies[f] * A[f].imag()};
+      symmetrise(at.A, set_.frequency.front().A);
+      symmetrise(at.B, band.frequencies[f] * set_.frequency.front().A);
+      at.A = about_origin(at.A);
+      at.B = about_origin(at.B);
+      set_.frequency.push_back(std::move(at));
+    }
+  }
+
+  Beach beach_of(const PanelBand& band) const {
+    Beach beach;
+    beach.width = band.width;
+    beach.gap = options_.gap_damping;
+    return beach;
+  }
+
+  /// eta = i w phi/g, and a unit velocity is a motion of 1/w.
+  void watch_gap(const SurfacePanels& surface, const ClassModes& modes,
+                 const std::vector<FrequencyResponse>& responses) {
+    for (const FrequencyResponse& response : responses)
+      for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+        if (modes.modes[k] % 6 >= 3) continue;
+        for (std::size_t j = 0; j < surface.in_gap.size(); ++j) {
+          const double rise = std::pow(response.frequency, 2) / options_.gravity *
+                              std::abs(response.surface(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)));
+          if (!surface.in_gap[j] || rise <= report_.gap_rise) continue;
+          report_.gap_rise = rise;
+          report_.gap_frequency = response.frequency;
+        }
+      }
+  }
+
+  void record_sizes(const HullPanels& panels, const SurfacePanels& surface, PanelBand& band) {
+    const BoundarySizes sizes = sizes_of(panels, surface);
+    band.hull_panels = sizes.hull;
+    band.surface_panels = sizes.surface;
+    band.classes = sizes.classes;
+    band.bytes = sizes.bytes;
+  }
+
+  /// X_D by Haskind's relation from the weighted potentials of the modes at the band's frequencies.
+  void excite(const HullPanels& panels, const Parity& parity, const ClassModes& modes,
+              const std::vector<Matrix<Complex>>& weighted, const PanelBand& band) {
+    ExcitationTable& X = set_.excitation;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
+      const double w = X.frequencies[f];
+      if (w < band.from || w > band.to) continue;
+      const auto [first, weights] = cubic_weights(band.frequencies, w);
+      Matrix<Complex> potential = weights[0] * weighted[first];
+      for (std::size_t i = 1; i < weights.size(); ++i) potential += weights[i] * weighted[first + i];
+      for (std::size_t h = 0; h < X.headings.size(); ++h) {
+        const Eigen::VectorXcd velocity = incident_velocity(panels, parity, w, X.headings[h], options_.gravity);
+        const Eigen::VectorXcd X_D = Complex(0.0, w) * (potential.transpose() * velocity);
+        for (std::size_t k = 0; k < modes.modes.size(); ++k)
+          X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]) =
+              X_D(k) * phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity);
+      }
+    }
+  }
+
+  /// Carries X_D to Bo and adds X_FK.
+  void add_froude_krylov() {
+    ExcitationTable& X = set_.excitation;
+    for (std::size_t k = 0; k < hulls_.size(); ++k) {
+      const LinearFroudeKrylov incident(hulls_[k].mesh, hulls_[k].waterline, options_.density, options_.gravity);
+      const Vector3 arm = layout_.hulls[k].from_Bo;
+      std::vector<double> headings(X.headings);
+      for (double& heading : headings) heading -= layout_.hulls[k].reference.yaw;
+#pragma omp parallel for schedule(dynamic, 1)
+      for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
+        const auto froude_krylov = incident.excitations(X.frequencies[f], headings);
+        for (std::size_t h = 0; h < X.headings.size(); ++h) {
+          Eigen::Map<Eigen::Matrix<Complex, 6, 1>> at(&X.at(static_cast<int>(f), static_cast<int>(h), 6 * k));
+          at.tail<3>() += cross_matrix(arm).cast<Complex>() * at.head<3>();
+          at += froude_krylov.col(h);
+        }
+      }
+    }
+  }
+
+  MatrixX about_origin(const MatrixX& M) const { return to_middle_.transpose() * M * to_middle_; }
+
+  /// Replaces M by its symmetric part and keeps the largest difference, relative to the diagonal of `scale`.
+  void symmetrise(MatrixX& M, const MatrixX& scale) {
+    for (int i = 0; i < modes_; ++i)
+      for (int j = 0; j < i; ++j) {
+        const double s = std::sqrt(scale(i, i) * scale(j, j));
+        report_.asymmetry = std::max(report_.asymmetry, std::abs(M(i, j) - M(j, i)) / s);
+        M(i, j) = M(j, i) = 0.5 * (M(i, j) + M(j, i));
+      }
+  }
+
+  const std::vector<PanelHull>& hulls_;
+  const PanelMethodOptions& options_;
+  PanelMethodReport& report_;
+  const std::function<bool(double, const std::string&)>& progress_;
+  Layout layout_;
+  MatrixX to_middle_;
+  int modes_;
+  MatrixX A_inf_middle_;
+  HydrodynamicCoefficients set_;
+};
+
+}  // namespace
+
+std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options) {
+  require_options(options);
+  const Layout layout = place(hulls);
+  std::vector<PanelBand> bands = bands_of(layout, options);
+  for (PanelBand& band : bands) {
+    const HullPanels panels = panels_of(hulls, layout, band.panel_length);
+    const BoundarySizes sizes = sizes_of(panels, free_surface(panels, {band.near, band.far, kGrowth, band.width}));
+    band.hull_panels = sizes.hull;
+    band.surface_panels = sizes.surface;
+    band.classes = sizes.classes;
+    band.bytes = sizes.bytes;
+  }
+  return bands;
+}
+
+HydrodynamicCoefficients panel_method(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
+                                      PanelMethodReport* report,
+                                      const std::function<bool(double, const std::string&)>& progress) {
+  require_options(options);
+  PanelMethodReport own;
+  return Computation(hulls, options, report ? *report : own, progress).run();
+}
+
+Eigen::MatrixXcd diffraction_by_solution(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
+                                         double frequency, const std::vector<double>& headings) {
+  require_options(options);
+  const Layout layout = place(hulls);
+  PanelMethodOptions one = options;
+  one.chosen = {frequency};
+  const PanelBand band = bands_of(layout, one).front();
+  const HullPanels panels = panels_of(hulls, layout, band.panel_length);
+  SurfacePanels surface = free_surface(panels, {band.near, band.far, kGrowth, band.width});
+  mark_gap(layout, panels, surface);
+  Beach beach;
+  beach.width = band.width;
+  beach.gap = options.gap_damping;
+  const VectorX weight = panel_weights(panels, options.density);
+  const int count = static_cast<int>(headings.size());
+  Matrix<Complex> X = Matrix<Complex>::Zero(6 * hulls.size(), count);
+  for (const BoundaryClass& c : boundary_problem(panels, surface)) {
+    const ClassModes modes = modes_of(panels, layout, c.parity);
+    if (modes.modes.empty()) continue;
+    Matrix<Complex> v(panels.panels.size(), count);
+    for (int h = 0; h < count; ++h)
+      v.col(h) = -incident_velocity(panels, c.parity, frequency, headings[h], options.gravity);
+    const auto response = frequency_responses(c, surface, beach, options.gravity, {{frequency}}, {&v, 1});
+    const Matrix<Complex> weighted = weight.cast<Complex>().asDiagonal() * response.front().hull;
+    const Matrix<Complex> F =
+        Complex(0.0, -frequency) * (modes.normal.transpose().cast<Complex>() * weighted);
+    for (std::size_t k = 0; k < modes.modes.size(); ++k)
+      for (int h = 0; h < count; ++h)
+        X(modes.modes[k], h) = F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h],
+                                                         options.gravity);
+  }
+  return to_middle(layout).transpose().cast<Complex>() * X;
+}
+
+}  // namespace stillhook

@@ -1,0 +1,246 @@
+#include "sim/response.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sim/hull/heading_frame.h"
+#include "sim/hull/hydrostatics.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kCalm = -1.0;  // s: before the waves start
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kFewest = 4;  // frequencies of a table that is interpolated
+
+/// Cubic Hermite interpolation of `of(entry)` with three-point slopes; w within the table.
+template <class Part>
+MatrixX interpolated(const std::vector<FrequencyCoefficients>& table, double w, Part of) {
+  const auto above = std::upper_bound(table.begin(), table.end(), w,
+                                      [](double value, const FrequencyCoefficients& f) { return value < f.frequency; });
+  const int last = static_cast<int>(table.size()) - 1;
+  const int i = std::clamp(static_cast<int>(above - table.begin()) - 1, 0, last - 1);
+  const auto x = [&](int k) { return table[k].frequency; };
+  const auto slope = [&](int k) -> MatrixX {
+    if (k == 0 || k == last) {
+      const int j = k == 0 ? 1 : last;
+      return (of(table[j]) - of(table[j - 1])) / (x(j) - x(j - 1));
+    }
+    const double before = x(k) - x(k - 1), after = x(k + 1) - x(k);
+    return ((of(table[k]) - of(table[k - 1])) * (after / before) +
+            (of(table[k + 1]) - of(table[k])) * (before / after)) /
+           (before + after);
+  };
+  const double h = x(i + 1) - x(i), t = (w - x(i)) / h, s = 1.0 - t;
+  return (1.0 + 2.0 * t) * s * s * of(table[i]) + t * s * s * h * slope(i) +
+         t * t * (3.0 - 2.0 * t) * of(table[i + 1]) - t * t * s * h * slope(i + 1);
+}
+
+bool within(const std::vector<FrequencyCoefficients>& table, double w) {
+  return table.size() >= kFewest && w >= table.front().frequency && w <= table.back().frequency * (1.0 + 1e-9);
+}
+
+MatrixX added_mass_of(const HydrodynamicCoefficients& set, double w) {
+  if (within(set.frequency, w))
+    return interpolated(set.frequency, w, [](const auto& f) -> const MatrixX& { return f.A; });
+  if (!set.retardation.empty()) return added_mass_from_kernels(set.A_inf, set.retardation, w);
+  if (set.frequency.empty()) return set.A_inf;
+  return w < set.frequency.front().frequency ? set.frequency.front().A : set.A_inf;
+}
+
+MatrixX damping_of(const HydrodynamicCoefficients& set, double w) {
+  if (within(set.frequency, w))
+    return interpolated(set.frequency, w, [](const auto& f) -> const MatrixX& { return f.B; });
+  if (!set.retardation.empty()) return damping_from_kernels(set.retardation, set.modes(), w);
+  return MatrixX::Zero(set.modes(), set.modes());
+}
+
+}  // namespace
+
+/// Hulls of one set, or a lone hull.
+struct LinearResponse::Group {
+  struct Hull {
+    HeadingFrame frame;                // cog from the reference point
+    LinearFroudeKrylov froude_krylov;  // about the reference point
+    Eigen::Vector2d reference;         // m, in W
+  };
+  std::vector<Hull> hulls;
+  std::shared_ptr<const HydrodynamicCoefficients> set;  // may be null
+  Matrix6 constant_added_mass = Matrix6::Zero();        // of a hull without a set
+  std::optional<DiffractionTable> diffraction;
+
+  double heading() const { return hulls.front().frame.heading; }
+  /// T^T M T of a matrix of all modes, added to the system's.
+  void add(const MatrixX& M, MatrixX& to) const {
+    for (std::size_t i = 0; i < hulls.size(); ++i)
+      for (std::size_t j = 0; j < hulls.size(); ++j)
+        to.block<6, 6>(6 * hulls[i].frame.body, 6 * hulls[j].frame.body) +=
+            hulls[i].frame.transform().transpose() * M.block<6, 6>(6 * i, 6 * j) * hulls[j].frame.transform();
+  }
+};
+
+namespace {
+
+/// Every body with a hull once: alone, or with the one whose set it shares.
+std::vector<std::vector<int>> hull_groups(const Model& model) {
+  const std::vector<BodySpec>& bodies = model.specification().bodies;
+  std::vector<std::vector<int>> groups;
+  std::vector<bool> taken(bodies.size(), false);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Model::BodyCoefficients& from = model.coefficients(static_cast<int>(i));
+    if (!from.set || from.set->hulls() < 2 || from.hull != 0) continue;
+    groups.push_back({static_cast<int>(i), model.body_index(bodies[i].hydrodynamics.coupled_with)});
+    for (const int k : groups.back()) taken[k] = true;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!taken[i] && bodies[i].hull.shape != HullSpec::Shape::none) groups.push_back({static_cast<int>(i)});
+  return groups;
+}
+
+/// Height of the still water above Bo, along B's z axis through the middle of the hull.
+double waterline_of(const Mesh& mesh, const Pose& X_WB) {
+  const MeshProperties size = properties_of(mesh);
+  const Vector3 middle = 0.5 * (size.low + size.high);
+  return -(X_WB.p.z() + X_WB.R(2, 0) * middle.x() + X_WB.R(2, 1) * middle.y()) / X_WB.R(2, 2);
+}
+
+}  // namespace
+
+LinearResponse::~LinearResponse() = default;
+LinearResponse::LinearResponse(LinearResponse&&) noexcept = default;
+
+LinearResponse::LinearResponse(const Model& model, const SystemState& equilibrium)
+    : model_(model), state_(equilibrium), highest_(kInfinity) {
+  const MultibodySystem& system = model.system();
+  const Specification& spec = model.specification();
+  gravity_ = spec.sea.gravity;
+  state_.t = kCalm;
+  SystemWorkspace work = system.make_workspace();
+  VectorX Q;
+  system.forces(state_, 0.0, work, Q);
+  system.jacobian(state_, 0.0, work);
+  stiffness_ = -work.jacobian.stiffness();
+  // Radiation with a memory has no damping at rest, so that of the sets can be added at each frequency; constant
+  // damping and the linear part of viscous damping are in.
+  damping_ = -work.jacobian.damping();
+  Z_ = MatrixX::Identity(system.coordinates(), system.coordinates());
+  if (system.constraints() > 0) {
+    MatrixX C_q;
+    system.constraint_jacobian(state_, C_q);
+    const Eigen::HouseholderQR<MatrixX> qr(C_q.transpose());
+    Z_ = MatrixX(qr.householderQ()).rightCols(system.coordinates() - system.constraints());
+  }
+  mass_ = MatrixX::Zero(system.coordinates(), system.coordinates());
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    mass_.block<3, 3>(6 * i, 6 * i) = system.bodies[i].mass * Matrix3::Identity();
+    mass_.block<3, 3>(6 * i + 3, 6 * i + 3) = system.bodies[i].inertia;
+  }
+  for (const std::vector<int>& members : hull_groups(model)) {
+    Group group;
+    group.set = model.coefficients(members.front()).set;
+    std::vector<LinearFroudeKrylov> incident;
+    std::vector<double> headings;
+    for (const int k : members) {
+      const BodySpec& body = spec.bodies[k];
+      const Pose X_WB = pose_of(state_.body[k], system.bodies[k]);
+      const double height = model.coefficients(k).reference_height;
+      Mesh mesh = build_hull_mesh(body.hull);
+      const double waterline = group.set ? group.set->waterline : waterline_of(mesh, X_WB);
+      for (Vector3& vertex : mesh.vertices) vertex.z() -= height;
+      const double yaw = roll_pitch_yaw(X_WB.R).yaw;
+      const double density = group.set ? group.set->density : spec.sea.density;
+      group.hulls.push_back({HeadingFrame(k, body.cog - Vector3(0.0, 0.0, height), yaw),
+                             LinearFroudeKrylov(mesh, waterline, density, gravity_), X_WB.p.head<2>()});
+      incident.push_back(group.hulls.back().froude_krylov);
+      headings.push_back(yaw);
+    }
+    if (group.set && !group.set->excitation.empty()) {
+      try {
+        group.diffraction.emplace(group.set->excitation, incident, headings, group.set->length);
+      } catch (const std::invalid_argument& error) {
+        throw SpecificationError("bodies." + spec.bodies[members.front()].name + ".hydrodynamics", "", error.what());
+      }
+      lowest_ = std::max(lowest_, group.set->excitation.frequencies.front());
+      highest_ = std::min(highest_, group.diffraction->highest_frequency());
+    }
+    const HydrodynamicsSpec& h = spec.bodies[members.front()].hydrodynamics;
+    if (h.kind == HydrodynamicsSpec::Kind::constant) group.constant_added_mass = h.added_mass;
+    groups_.push_back(std::move(group));
+  }
+}
+
+MatrixX LinearResponse::potential_mass(double frequency) const {
+  MatrixX M = MatrixX::Zero(mass_.rows(), mass_.cols());
+  for (const Group& group : groups_)
+    group.add(group.set ? added_mass_of(*group.set, frequency) : MatrixX(group.constant_added_mass), M);
+  return M;
+}
+
+MatrixX LinearResponse::potential_damping(double frequency) const {
+  MatrixX B = MatrixX::Zero(mass_.rows(), mass_.cols());
+  for (const Group& group : groups_)
+    if (group.set) group.add(damping_of(*group.set, frequency), B);
+  return B;
+}
+
+bool LinearResponse::resolves(double frequency, double heading) const {
+  return std::all_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+    return !group.diffraction || group.diffraction->resolves(frequency, heading - group.heading());
+  });
+}
+
+Eigen::VectorXcd LinearResponse::excitation(double frequency, double heading) const {
+  const double k = frequency * frequency / gravity_;
+  const Eigen::Vector2d direction(std::cos(heading), std::sin(heading));
+  Eigen::VectorXcd Q = Eigen::VectorXcd::Zero(mass_.rows());
+  for (const Group& group : groups_) {
+    Eigen::VectorXcd X_D = Eigen::VectorXcd::Zero(6 * group.hulls.size());
+    if (group.diffraction)
+      X_D =
+          group.diffraction->at(std::min(frequency, group.diffraction->highest_frequency()), heading - group.heading());
+    for (std::size_t i = 0; i < group.hulls.size(); ++i) {
+      const Group::Hull& hull = group.hulls[i];
+      const ResponseAmplitude::Vector6c X =
+          X_D.segment<6>(6 * i) + hull.froude_krylov.excitation(frequency, heading - hull.frame.heading);
+      Q.segment<6>(6 * hull.frame.body) +=
+          hull.frame.transform().transpose().cast<Complex>() * X * std::polar(1.0, k * direction.dot(hull.reference));
+    }
+  }
+  return Q;
+}
+
+ResponseAmplitude LinearResponse::at(double frequency, double heading) const {
+  if (!(frequency > 0.0) || !resolves(frequency, heading))
+    throw std::invalid_argument("linear response: the coefficients do not know a wave of this frequency and heading");
+  const Complex i(0.0, 1.0);
+  const Eigen::MatrixXcd dynamic =
+      (stiffness_ - frequency * frequency * (mass_ + potential_mass(frequency))).cast<Complex>() -
+      i * frequency * (damping_ + potential_damping(frequency)).cast<Complex>();
+  const Eigen::MatrixXcd Z = Z_.cast<Complex>();
+  const Eigen::MatrixXcd reduced = Z.transpose() * dynamic * Z;
+  const Eigen::VectorXcd xi = Z * reduced.partialPivLu().solve(Z.transpose() * excitation(frequency, heading));
+  ResponseAmplitude result{frequency, heading, {}};
+  for (Eigen::Index k = 0; k < xi.size(); k += 6) result.body.push_back(xi.segment<6>(k));
+  return result;
+}
+
+ResponseAmplitude::Vector6c LinearResponse::motion(const ResponseAmplitude& response, int body,
+                                                   const Vector3& p_B) const {
+  const BodyKinematics& b = state_.body[body];
+  const ResponseAmplitude::Vector6c& xi = response.body[body];
+  const Vector3 arm = b.R_WB * (p_B - model_.system().bodies[body].cog);
+  const Eigen::Vector3cd turn = b.R_WB.cast<Complex>() * xi.tail<3>();
+  const Eigen::Vector3cd move = xi.head<3>() - cross_matrix(arm).cast<Complex>() * turn;
+  const Eigen::Matrix3cd R_HW = heading_rotation(b.R_WB).transpose().cast<Complex>();
+  ResponseAmplitude::Vector6c result;
+  result << R_HW * move, R_HW * turn;
+  const Vector3 p_W = b.p_WC + arm;
+  const double k = response.frequency * response.frequency / gravity_;
+  const double lead = k * (p_W.x() * std::cos(response.heading) + p_W.y() * std::sin(response.heading));
+  return result * std::polar(1.0, -lead);
+}
+
+}  // namespace stillhook

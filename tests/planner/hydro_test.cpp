@@ -1,0 +1,265 @@
+// `stillhook hydro` as a user meets it: a small box, coarse panels, the files it leaves, the cache.
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "planner/hydro_convergence.h"
+#include "sim/hull/database.h"
+
+using namespace stillhook;
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "stillhook-hydro-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+  fs::path path;
+};
+
+std::string content(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A box of 40 x 20 m afloat at 2 m, moored by its own stiffness alone, and a load on a wire.
+std::string write_case(const Folder& folder, const std::string& hydrodynamics = "kind = \"panels\"",
+                       const std::string& method = "refinement = 0.5") {
+  std::ofstream(folder / "box.toml") << R"toml(# A box for tests.
+name = "box"
+title = "A box"
+
+[sea]
+active = "calm"
+
+[[sea.states]]
+name = "calm"
+type = "calm"
+
+[panel_method]
+lowest_rad_per_s = 0.5
+highest_rad_per_s = 2.4
+accept_failed_checks = "haskind, kramers_kronig"  # panels as coarse as these fail them
+frequencies = 20
+)toml" << method << R"toml(
+
+[[bodies]]
+name = "barge"
+mass_t = 1640.0
+cog_m = [0.0, 0.0, 1.0]
+gyration_m = [6.5, 11.5, 12.5]
+hull = { shape = "box", size_m = [40.0, 20.0, 4.0], centre_m = [0.0, 0.0, 0.0], panel_length_m = 10.0 }
+hydrodynamics = { )toml" << hydrodynamics
+                                     << R"toml( }
+
+[operation]
+load = "barge"
+crane = "barge"
+
+[[operation.phases]]
+name = "waiting"
+duration_s = 10.0
+)toml";
+  return folder / "box.toml";
+}
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+pid_t start(const Folder& folder, std::vector<std::string> arguments) {
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child > 0) return child;
+  if (chdir(folder.path.c_str()) != 0) _exit(99);
+  setenv("STILLHOOK_CACHE", (folder / "cache").c_str(), 1);
+  const int out = open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(out, STDOUT_FILENO);
+  dup2(err, STDERR_FILENO);
+  arguments.insert(arguments.begin(), STILLHOOK_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& a : arguments) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  execv(argv[0], argv.data());
+  _exit(98);
+}
+
+Result finish(const Folder& folder, pid_t child) {
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(folder / "stdout.txt"),
+          content(folder / "stderr.txt")};
+}
+
+Result run(const Folder& folder, const std::vector<std::string>& arguments) {
+  return finish(folder, start(folder, arguments));
+}
+
+}  // namespace
+
+TEST_CASE("hydro computes, writes every file, and takes the second run from the cache", "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder);
+  const Result first = run(folder, {"hydro", file, "--json", "--headings", "180,90"});
+  INFO(first.err);
+  REQUIRE(first.code == 0);
+  CHECK(first.err.find("panels on the hull") != std::string::npos);  // stated before the computation
+  const std::string run_folder = folder / "runs/box-hydro";
+  const json summary = json::parse(first.out);
+  CHECK(summary == json::parse(content(run_folder + "/summary.json")));
+  CHECK(summary["schema_version"] == 1);
+  CHECK(summary["verb"] == "hydro");
+  CHECK(summary["status"] == "completed");
+  REQUIRE(summary["sets"].size() == 1);
+  const json& set = summary["sets"][0];
+  CHECK_FALSE(set["from_cache"].get<bool>());
+  CHECK(set["seconds"].get<double>() > 0.0);
+  CHECK(set["panels"].size() > 0);
+  CHECK(set["checks"].size() > 5);
+  std::size_t failed = 0;
+  for (const json& check : set["checks"]) {
+    const bool accepted = check["key"] == "haskind" || check["key"] == "kramers_kronig";
+    CHECK((check["pass"].get<bool>() || accepted));
+    failed += !check["pass"].get<bool>();
+  }
+  CHECK(summary["warnings"].size() == failed);  // what was accepted is told
+  CHECK(set["fit"]["states"].get<int>() > 0);
+  CHECK(summary["rao"]["headings_deg"] == json({180.0, 90.0}));
+  const json& heave = summary["rao"]["bodies"][0]["motions"][0]["heave"];
+  CHECK(heave["amplitude"].size() == summary["rao"]["frequencies_rad_per_s"].size());
+
+  // Every format holds the same set. Files have 9 digits; the frame of the databases is moved to Bo and back.
+  const std::string base = run_folder + "/coefficients-barge";
+  const HydrodynamicCoefficients own = read_coefficient_file(base + ".csv");
+  DatabaseOptions options;
+  options.frame.bodies = {{Vector3(0.0, 0.0, -own.waterline), own.volume[0]}};
+  options.frame.length = own.length;
+  options.wamit.density = own.density;
+  options.wamit.gravity = own.gravity;
+  for (const char* ending : {".h5", ".1"}) {
+    const HydrodynamicCoefficients other = read_database(base + ending, options);
+    INFO(ending);
+    CHECK((other.A_inf - own.A_inf).norm() < 1e-6 * own.A_inf.norm());
+    REQUIRE(other.excitation.value.size() == own.excitation.value.size());
+    double worst = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < own.excitation.value.size(); ++i) {
+      worst = std::max(worst, std::abs(other.excitation.value[i] - own.excitation.value[i]));
+      largest = std::max(largest, std::abs(own.excitation.value[i]));
+    }
+    CHECK(worst < 1e-5 * largest);
+    // C_33 / rho g of 40 x 20 m
+    CHECK(other.waterplane.at(0) == Approx(800.0).epsilon(1e-3));
+  }
+  const std::string page = content(run_folder + "/report.html");
+  for (const char* part : {"Added mass in heave", "Retardation function in sway", "Heave of barge", "reduced model"})
+    CHECK(page.find(part) != std::string::npos);
+
+  CHECK(run(folder, {"hydro", file}).code == 2);  // the folder is taken
+  const Result second = run(folder, {"hydro", file, "--force", "--quiet"});
+  REQUIRE(second.code == 0);
+  CHECK(second.err.empty());
+  CHECK(second.out.find("taken from the cache") != std::string::npos);
+  for (const char* part : {"Added mass of barge", "Radiation damping of barge", "Self-checks", "passivity margin"})
+    CHECK(second.out.find(part) != std::string::npos);
+  CHECK(json::parse(content(run_folder + "/summary.json"))["sets"][0]["from_cache"].get<bool>());
+
+  const Result refused =
+      run(folder, {"hydro", file, "--out", "refused", "--set", "panel_method.accept_failed_checks=\"\""});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("the coefficients fail") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "refused/summary.json"));
+}
+
+TEST_CASE("simulate and check tell that the panel method runs", "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder);
+  const Result check = run(folder, {"check", file});
+  INFO(check.err);
+  REQUIRE(check.code == 0);
+  CHECK(check.err.find("the panel method computes") != std::string::npos);
+  // The set is kept now.
+  CHECK(run(folder, {"check", file}).err.find("the panel method computes") == std::string::npos);
+}
+
+TEST_CASE("warnings of the model reach the summary and the report", "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.5\nbeyond = \"cut\"");
+  const Result result =
+      run(folder, {"simulate", file, "--set", "sea.active=\"calm\"", "--set", "sea.states.calm.type=\"regular\"",
+                   "--set", "sea.states.calm.amplitude_m=0.1", "--set", "sea.states.calm.frequency_rad_per_s=2.45",
+                   "--set", "bodies.barge.hull.panel_length_m=2.0"});
+  INFO(result.err);
+  REQUIRE((result.code == 0 || result.code == 3));
+  CHECK(result.err.find("beyond the hull's coefficients") != std::string::npos);
+  const json summary = json::parse(content(folder / "runs/box-simulate/summary.json"));
+  REQUIRE(summary["warnings"].size() >= 1);
+  CHECK(summary["warnings"].dump().find("of the sea's energy lies beyond") != std::string::npos);
+  CHECK(content(folder / "runs/box-simulate/report.html").find("To be known") != std::string::npos);
+}
+
+TEST_CASE("hydro refuses what it cannot do", "[hydro]") {
+  const Folder folder;
+  SECTION("no coefficients") {
+    const std::string file = write_case(folder, "kind = \"constant\", added_mass_t = [1.0, 1.0, 1.0]");
+    const Result result = run(folder, {"hydro", file});
+    CHECK(result.code == 2);
+    CHECK(result.err.find("there is nothing to do") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "runs/box-hydro/summary.json"));
+  }
+  SECTION("no such file") { CHECK(run(folder, {"hydro", folder / "none.toml"}).code == 2); }
+  SECTION("not afloat") {
+    const std::string file = write_case(folder);
+    CHECK(run(folder, {"hydro", file, "--set", "bodies.barge.mass_t=9000"}).code == 2);
+  }
+}
+
+TEST_CASE("Ctrl-C ends a panel computation with 130", "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 1.0");
+  const pid_t child = start(folder, {"hydro", file});
+  // Not before it has begun: it says so first.
+  for (int i = 0; i < 400 && content(folder / "stderr.txt").find("panels on the hull") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGINT);
+  const Result result = finish(folder, child);
+  INFO(result.err);
+  CHECK(result.code == 130);
+  CHECK_FALSE(fs::exists(folder / "runs/box-hydro/summary.json"));
+}
+
+TEST_CASE("the order of convergence is that of the changes", "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.5");
+  const Result result = run(folder, {"hydro", file, "--converge", "--json"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const json convergence = json::parse(result.out)["sets"][0]["convergence"];
+  CHECK(convergence["refinement"][2].get<double>() == Approx(0.5 * std::sqrt(2.0)));
+  CHECK(convergence["surface_panels"][0].get<int>() < convergence["surface_panels"][2].get<int>());
+  REQUIRE(convergence["rows"].size() == 18);
+  for (const json& row : convergence["rows"]) {
+    const double first = row["first_change"], second = row["second_change"];
+    if (row["order"].is_null())
+      CHECK(second >= first);
+    else
+      CHECK(row["order"].get<double>() == Approx(std::log(first / second) / std::log(std::sqrt(2.0))));
+    CHECK(row["error"].get<double>() >= second);
+  }
+}

@@ -1,0 +1,246 @@
+#include "sim/hull/panel_method.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "sim/hull/linear_froude_krylov.h"
+#include "sim/hull/radiation_march.h"
+#include "sim/hull/rankine/hull_modes.h"
+#include "tests/truth/box_hull.h"
+#include "tests/truth/hemisphere.h"
+#include "tests/truth/sphere_mesh.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const Vector3 kBoxSize(110.0, 46.0, 7.5), kBoxCentre(0.0, 0.0, -0.25);
+
+PanelHull box_hull() {
+  PanelHull hull;
+  hull.name = "crane";
+  hull.box_size = kBoxSize;
+  hull.box_centre = kBoxCentre;
+  hull.mesh = box_mesh(kBoxSize, kBoxCentre, 4.0);
+  return hull;
+}
+
+PanelHull sphere_hull(double radius, int n) {
+  PanelHull hull;
+  hull.name = "sphere";
+  hull.mesh = truth::sphere_mesh(radius, n);
+  return hull;
+}
+
+/// A over rho 2/3 pi a^3 of both limits in heave and surge, n circles of latitude.
+struct Limits {
+  double heave_infinite, heave_zero, surge_infinite, surge_zero;
+};
+Limits limits_of_hemisphere(int n) {
+  using namespace rankine;
+  const HullPanels panels = mesh_panels(truth::sphere_mesh(1.0, n), 0.0, 10.0, {true, true});
+  const VectorX weight = panel_weights(panels, 1.0);
+  Limits limits{};
+  for (const BoundaryClass& c : limit_problem(panels))
+    for (const int mode : {0, 2}) {
+      if (mode_parity(panels.symmetry, mode) != c.parity) continue;
+      const VectorX normal = mode_normal(panels, 0, mode, {});
+      // Against the volume of the polyhedron, so that its being smaller than the sphere does not count.
+      const double volume = panels.volume(0);
+      const double infinite = -(weight.cwiseProduct(normal)).dot(c.local * normal) / volume;
+      const double zero = -(weight.cwiseProduct(normal)).dot(c.hull_response * normal) / volume;
+      (mode == 0 ? limits.surge_infinite : limits.heave_infinite) = infinite;
+      (mode == 0 ? limits.surge_zero : limits.heave_zero) = zero;
+    }
+  return limits;
+}
+
+}  // namespace
+
+TEST_CASE("limits of the hemisphere's added mass, and their convergence", "[rankine]") {
+  const Limits coarse = limits_of_hemisphere(12), fine = limits_of_hemisphere(24), finest = limits_of_hemisphere(48);
+  CHECK(finest.heave_infinite == Approx(truth::kHeaveInfinite).epsilon(0.005));
+  CHECK(finest.heave_zero == Approx(truth::kHeaveZero).epsilon(0.005));
+  CHECK(finest.surge_infinite == Approx(truth::kSurgeInfinite).epsilon(0.01));
+  CHECK(finest.surge_zero == Approx(truth::kSurgeZero).epsilon(0.005));
+  // Halving the panels halves the error at least. Values to four digits: an error of 1e-4 is theirs.
+  const auto error = [](double value, double exact) { return std::abs(value - exact) - 1e-4; };
+  CHECK(error(fine.heave_infinite, truth::kHeaveInfinite) <= 0.5 * error(coarse.heave_infinite, truth::kHeaveInfinite));
+  CHECK(error(fine.heave_zero, truth::kHeaveZero) <= 0.5 * error(coarse.heave_zero, truth::kHeaveZero));
+  CHECK(error(fine.surge_infinite, truth::kSurgeInfinite) <= 0.55 * error(coarse.surge_infinite, truth::kSurgeInfinite));
+  CHECK(error(finest.heave_infinite, truth::kHeaveInfinite) <= 0.5 * error(fine.heave_infinite, truth::kHeaveInfinite));
+}
+
+TEST_CASE("floating hemisphere against the exact solution", "[rankine][slow]") {
+  constexpr double kRadius = 10.0;
+  PanelMethodOptions options;
+  for (const truth::Hemisphere& exact : truth::kHemisphere)
+    options.chosen.push_back(std::sqrt(exact.Ka * options.gravity / kRadius));
+  options.refinement = 1.7;  // a small hull in waves as short as twice its length
+  const HydrodynamicCoefficients c = panel_method({sphere_hull(kRadius, 32)}, options);
+  REQUIRE(c.frequency.size() == truth::kHemisphere.size() + 1);  // with A(0)
+  CHECK(c.frequency[0].frequency == 0.0);
+  const double mass = options.density * c.volume[0];
+  CHECK(c.A_inf(2, 2) / mass == Approx(truth::kHeaveInfinite).epsilon(0.01));
+  CHECK(c.A_inf(0, 0) / mass == Approx(truth::kSurgeInfinite).epsilon(0.01));
+  for (std::size_t i = 0; i < truth::kHemisphere.size(); ++i) {
+    const truth::Hemisphere& exact = truth::kHemisphere[i];
+    const FrequencyCoefficients& at = c.frequency[i + 1];
+    INFO("Ka = " << exact.Ka);
+    CHECK(at.A(2, 2) / mass == Approx(exact.A_heave).epsilon(0.01));
+    CHECK(at.A(0, 0) / mass == Approx(exact.A_surge).epsilon(0.01));
+    CHECK(at.A(1, 1) / mass == Approx(exact.A_surge).epsilon(0.01));
+    CHECK(at.B(2, 2) / (mass * at.frequency) == Approx(exact.B_heave).margin(0.02 * truth::kMostHeaveDamping));
+    CHECK(at.B(0, 0) / (mass * at.frequency) == Approx(exact.B_surge).margin(0.02 * truth::kMostSurgeDamping));
+    // A sphere that turns about its centre moves no water.
+    CHECK(std::abs(at.A(5, 5)) < 1e-3 * mass * kRadius * kRadius);
+  }
+}
+
+TEST_CASE("box hull against frequency-domain codes", "[rankine][slow]") {
+  PanelMethodOptions options;
+  options.headings = 8;
+  for (const truth::BoxHull& exact : truth::kBoxHull) options.chosen.push_back(exact.frequency);
+  PanelMethodReport report;
+  const HydrodynamicCoefficients c = panel_method({box_hull()}, options, &report);
+  CHECK(c.volume[0] == Approx(110.0 * 46.0 * 4.0));
+  CHECK(c.waterplane[0] == Approx(110.0 * 46.0));
+  for (std::size_t f = 0; f < truth::kBoxHull.size(); ++f)
+    for (int i = 0; i < 6; ++i) {
+      const truth::BoxHull& exact = truth::kBoxHull[f];
+      INFO("omega = " << exact.frequency << ", mode " << i + 1);
+      // Heave and pitch 3 %, surge, sway and yaw 5 %; roll, whose damping is the most sensitive to panels (the two
+      // meshes of the reference differ by 2.5 %), 5 %.
+      const double tolerance = i == 2 || i == 4 ? 0.03 : 0.05;
+      CHECK(c.frequency[f + 1].A(i, i) == Approx(exact.A[i]).epsilon(tolerance));
+      CHECK(c.frequency[f + 1].B(i, i) == Approx(exact.B[i]).epsilon(tolerance));
+    }
+  for (const truth::BoxExcitation& exact : truth::kBoxExcitation) {
+    const auto& w = c.excitation.frequencies;
+    const int f = static_cast<int>(std::min_element(w.begin(), w.end(), [&](double a, double b) {
+                                     return std::abs(a - exact.frequency) < std::abs(b - exact.frequency);
+                                   }) - w.begin());
+    REQUIRE(std::abs(w[f] - exact.frequency) < 1e-9);
+    const Complex X = c.excitation.at(f, static_cast<int>(std::lround(exact.heading / 45.0)), exact.mode);
+    INFO("omega = " << exact.frequency << ", heading " << exact.heading << ", mode " << exact.mode + 1);
+    // 2 %; roll, small beside sway times draft, as for its damping.
+    CHECK(std::abs(X) == Approx(exact.amplitude).epsilon(exact.mode == 3 ? 0.03 : 0.02));
+    CHECK(std::abs(std::remainder(std::arg(X) / kDegree - exact.phase, 360.0)) < 3.0);
+  }
+}
+
+TEST_CASE("Haskind's relation against the diffraction problem itself", "[rankine]") {
+  PanelHull hull = box_hull();
+  // Off its origin, so that reference points and phases count; as a mesh, so that there is no box to fall back on.
+  for (Vector3& vertex : hull.mesh.vertices) vertex += Vector3(7.0, -3.0, 0.5);
+  hull.box_size.setZero();
+  hull.waterline = 0.5;
+  PanelMethodOptions options;
+  options.headings = 8;
+  options.chosen = {0.7};
+  const HydrodynamicCoefficients c = panel_method({hull}, options);
+  const std::vector<double> headings = {45.0 * kDegree, 270.0 * kDegree};
+  const Eigen::MatrixXcd D = diffraction_by_solution({hull}, options, 0.7, headings);
+  const LinearFroudeKrylov incident(hull.mesh, hull.waterline, options.density, options.gravity);
+  for (int h = 0; h < 2; ++h) {
+    const auto FK = incident.excitation(0.7, headings[h]);
+    for (int i = 0; i < 6; ++i) {
+      INFO("heading " << headings[h] / kDegree << ", mode " << i + 1);
+      const Complex haskind = c.excitation.at(0, h == 0 ? 1 : 6, i) - FK(i);
+      // Green's theorem holds up to the panels' own error: 2 % of the largest of forces or moments.
+      const double scale = std::max(D.col(h).segment(i < 3 ? 0 : 3, 3).cwiseAbs().maxCoeff(), 1.0);
+      CHECK(std::abs(haskind - D(i, h)) < 0.02 * scale);
+    }
+  }
+}
+
+TEST_CASE("the march in time has the coefficients of the frequency domain", "[rankine]") {
+  PanelMethodOptions options;
+  options.lowest = 0.5;
+  options.highest = 1.0;
+  options.chosen = {};
+  const auto march = std::make_shared<const rankine::PanelMarch>(std::vector{box_hull()}, options, 0.2);
+  const RadiationMarch radiation(march);
+  const truth::BoxHull& exact = truth::kBoxHull[2];
+  const double w = exact.frequency, h = 0.05;
+  for (const int mode : {2, 4}) {
+    std::vector<double> state(radiation.state_size()), V(6), F(6), D(36);
+    radiation.start(V, {state, {}});
+    const int whole = static_cast<int>(std::lround(2.0 * std::numbers::pi / w / h)), from = 5 * whole, to = 6 * whole;
+    double in_phase = 0.0, quarter = 0.0;
+    for (int n = 1; n <= to; ++n) {
+      const double t = n * h, ramp = std::min(1.0, t / (2.0 * whole * h));
+      radiation.begin_step(h, {state, {}}, F, D);
+      V[mode] = ramp * ramp * (3.0 - 2.0 * ramp) * std::cos(w * t);
+      if (n > from) {
+        in_phase += 2.0 / whole * F[mode] * std::cos(w * t);
+        quarter += 2.0 / whole * F[mode] * std::sin(w * t);
+      }
+      radiation.end_step(V, h, {state, {}});
+    }
+    // F = -B V - (A - A_inf) a with V = cos wt. The march serves a whole band with one water surface: 5 %.
+    CHECK(-in_phase == Approx(exact.B[mode]).epsilon(0.05));
+    CHECK(march->A_inf()(mode, mode) + quarter / w == Approx(exact.A[mode]).epsilon(0.05));
+  }
+}
+
+TEST_CASE("two hulls far apart are two single hulls, and near ones push each other alike", "[rankine]") {
+  PanelHull a = sphere_hull(5.0, 12), b = a;
+  b.name = "other";
+  b.x = 50.0;
+  PanelMethodOptions options;
+  options.chosen = {1.1};
+  options.headings = 8;
+  options.refinement = 0.6;  // what the hulls do to each other shows on coarse panels too
+  PanelMethodReport report;
+  const HydrodynamicCoefficients alone = panel_method({a}, options), far = panel_method({a, b}, options, &report);
+  REQUIRE(far.modes() == 12);
+  CHECK(report.asymmetry < 0.03);
+  // 50 m apart the other's waves still arrive, weakened as 1/sqrt(k r).
+  CHECK(far.frequency[1].A(2, 2) == Approx(alone.frequency[1].A(2, 2)).epsilon(0.05));
+  CHECK(far.frequency[1].A(8, 8) == Approx(far.frequency[1].A(2, 2)).epsilon(0.02));
+  // Surge of one against surge of the other: mirrored, so alike.
+  CHECK(far.frequency[1].B(6, 6) == Approx(far.frequency[1].B(0, 0)).epsilon(0.02));
+  // A sea along the line of both meets the second one later, but phases are told from its own crest.
+  CHECK(std::abs(std::arg(far.excitation.at(0, 0, 8) / alone.excitation.at(0, 0, 2))) < 0.15);
+  CHECK(std::abs(far.excitation.at(0, 0, 8)) == Approx(std::abs(alone.excitation.at(0, 0, 2))).epsilon(0.1));
+  CHECK(report.gap_rise < kGapResonance);
+
+  b.x = 12.0;
+  const HydrodynamicCoefficients near = panel_method({a, b}, options, &report);
+  CHECK(report.asymmetry < 0.05);
+  CHECK(std::abs(near.frequency[1].A(2, 8)) > 0.02 * near.frequency[1].A(2, 2));
+  CHECK(near.frequency[1].A(2, 2) != Approx(alone.frequency[1].A(2, 2)).epsilon(0.005));
+  // Energy of both together, in phase and against each other, is radiated, never gained.
+  const Eigen::SelfAdjointEigenSolver<MatrixX> B(near.frequency[1].B, Eigen::EigenvaluesOnly);
+  CHECK(B.eigenvalues()(0) > -1e-3 * B.eigenvalues()(11));
+}
+
+TEST_CASE("the water between two long hulls resonates, is damped and is found", "[rankine]") {
+  // Two boxes side by side, 4 m apart: the gap's piston mode. Without walls at its ends it is low and broad; the first
+  // longitudinal mode of a gap of length l and draft d lies near w^2 = g/d for a narrow one (Molin 2001).
+  PanelHull a;
+  a.name = "a";
+  a.box_size = {40.0, 10.0, 8.0};
+  a.box_centre = {0.0, 0.0, 0.0};
+  a.mesh = box_mesh(a.box_size, a.box_centre, 4.0);
+  PanelHull b = a;
+  b.name = "b";
+  b.y = 14.0;
+  PanelMethodOptions options;
+  options.headings = 8;
+  options.refinement = 0.5;
+  for (int i = 0; i < 6; ++i) options.chosen.push_back(0.95 + 0.07 * i);
+  PanelMethodReport damped, free;
+  panel_method({a, b}, options, &damped);
+  options.gap_damping = 0.0;
+  const HydrodynamicCoefficients set = panel_method({a, b}, options, &free);
+  CHECK(free.gap_rise > kGapResonance);
+  CHECK(free.gap_rise > 1.02 * damped.gap_rise);
+  CHECK(free.gap_frequency > 0.95);
+  CHECK(free.gap_frequency < 1.35);
+  CHECK_THAT(set.description, Catch::Contains("resonance of the gap"));
+}
+
+}  // namespace stillhook

@@ -1,0 +1,394 @@
+#include "sim/hull/wamit_file.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "sim/hull/wamit_text.h"
+#include "sim/specification.h"
+#include "tests/sim/coefficient_sets.h"
+#include "tests/sim/temporary_folder.h"
+
+namespace stillhook {
+namespace {
+
+// Two coupled modes at 0.5, 1 and 1.5 rad/s, in the order and with the digits WAMIT prints.
+const char* const kRadiation =
+    " -0.100000E+01     3     3  0.200000E+01\n"                   // 1
+    " -0.100000E+01     3     5 -0.500000E+00\n"                   // 2
+    " -0.100000E+01     5     3 -0.500000E+00\n"                   // 3
+    " -0.100000E+01     5     5  0.400000E+01\n"                   // 4
+    "  0.000000E+00     3     3  0.100000E+01\n"                   // 5
+    "  0.000000E+00     3     5 -0.250000E+00\n"                   // 6
+    "  0.000000E+00     5     3 -0.250000E+00\n"                   // 7
+    "  0.000000E+00     5     5  0.300000E+01\n"                   // 8
+    "  0.125663706144E+02     3     3  0.125D+01  0.500000E+00\n"  // 9
+    "  0.125663706144E+02     3     5 -0.300000E+00  0.100000E+00\n"
+    "  0.125663706144E+02     5     3 -0.300000E+00  0.100000E+00\n"
+    "  0.125663706144E+02     5     5  0.350000E+01  0.250000E+00\n"
+    "  0.628318530718E+01     3     3  0.110000E+01  0.300000E+00\n"
+    "  0.628318530718E+01     3     5 -0.300000E+00  0.100000E+00\n"
+    "  0.628318530718E+01     5     3 -0.300000E+00  0.100000E+00\n"
+    "  0.628318530718E+01     5     5  0.350000E+01  0.250000E+00\n"
+    "  0.418879020479E+01     3     3  0.105000E+01  0.100000E+00\n"
+    "  0.418879020479E+01     3     5 -0.300000E+00  0.100000E-100\n"
+    "  0.418879020479E+01     5     3 -0.300000E+00  0.100000-100\n"
+    "  0.418879020479E+01     5     5  0.350000E+01  0.100000E+00\n";  // 20
+
+/// 0.8 + 0.6 i in the even modes, 0.3 i in the odd ones at 90 deg.
+std::string excitation(const std::vector<std::string>& headings = {"0", "90", "180"}) {
+  std::string text;
+  for (const std::string& b : headings)
+    for (int i = 1; i <= 6; ++i) {
+      text += "  0.628318530718E+01  " + b + "  " + std::to_string(i);
+      if (i % 2 == 1)
+        text += "  1.0  36.8698976458  0.8  0.6\n";
+      else
+        text += b == "90" ? "  0.3  90.0  0.0  0.3\n" : "  0.0  0.0  0.0  0.0\n";
+    }
+  return text;
+}
+
+const char* const kRestoring = "     3     3  0.120000E+02\n     3     5  0.000000E+00\n     5     5  0.700000E+02\n";
+
+WamitUnits units() {
+  WamitUnits u;
+  u.ulen = 2.0;
+  u.density = 1000.0;
+  u.gravity = 10.0;
+  return u;
+}
+
+DatabaseFrame frame() {
+  DatabaseFrame f;
+  f.bodies = {{Vector3::Zero(), 20.0}};
+  f.length = 8.0;
+  f.port_starboard = true;
+  f.retardation = {10.0, 0.1};
+  return f;
+}
+
+struct Files {
+  TemporaryFolder folder;
+  std::string base = folder / "hull";
+  explicit Files(const std::string& radiation = kRadiation, const std::string& forces = excitation(),
+                 const std::string& restoring = kRestoring) {
+    folder.write("hull.1", radiation);
+    folder.write("hull.3", forces);
+    if (!restoring.empty()) folder.write("hull.hst", restoring);
+  }
+};
+
+std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
+  const std::size_t at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), fresh);
+}
+
+/// The rows of kRadiation without those of infinite frequency.
+std::string without_infinite() {
+  std::istringstream in(kRadiation);
+  std::string line, text;
+  while (std::getline(in, line))
+    if (line.find("  0.000000E+00") != 0) text += line + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("Fortran's numbers are read as Fortran means them", "[wamit_file]") {
+  double value = 0.0;
+  const auto reads = [&](const char* text) { return fortran_number(text, value); };
+  CHECK((reads("1.0D+03") && value == 1000.0));
+  CHECK((reads("-0.5d-1") && value == -0.05));
+  CHECK((reads("1.234-100") && value == 1.234e-100));
+  CHECK((reads("-1.5+002") && value == -150.0));
+  CHECK((reads("+.25E1") && value == 2.5));
+  CHECK((reads("7.") && value == 7.0));
+  CHECK((reads("1.0-999") && value == 0.0));
+  for (const char* text :
+       {"********", "NaN", "Infinity", "1.0D", "E5", "1.0+400", "1..2", "1.0E+3-2", "-", "", "0x10"}) {
+    INFO(text);
+    CHECK_FALSE(reads(text));
+  }
+}
+
+TEST_CASE("WAMIT's numbers become those of the hull", "[wamit_file]") {
+  const Files files;
+  const HydrodynamicCoefficients c = read_wamit(files.base, units(), frame());
+  // By hand, rho = 1000, ULEN = 2, g = 10: rho L^3 = 8000, L^4: 16000, L^5: 32000; rho g L^2 = 40000, L^3: 80000.
+  CHECK(c.A_inf(2, 2) == Approx(8000.0));
+  CHECK(c.A_inf(2, 4) == Approx(-4000.0));
+  CHECK(c.A_inf(4, 4) == Approx(96000.0));
+  CHECK(c.A_inf(0, 0) == 0.0);
+  REQUIRE(c.frequency.size() == 4);
+  CHECK(c.frequency[0].frequency == 0.0);
+  CHECK(c.frequency[0].A(2, 2) == Approx(16000.0));
+  CHECK(c.frequency[1].frequency == Approx(0.5).epsilon(1e-9));
+  CHECK(c.frequency[1].A(2, 2) == Approx(10000.0));
+  CHECK(c.frequency[1].B(2, 2) == Approx(2000.0).epsilon(1e-9));  // 0.5 * 8000 * 0.5 rad/s
+  CHECK(c.frequency[1].B(2, 4) == Approx(800.0));
+  CHECK(c.frequency[2].B(4, 4) == Approx(8000.0));
+  CHECK(c.frequency[3].frequency == Approx(1.5));
+  CHECK(c.excitation.frequencies.size() == 1);
+  REQUIRE(c.excitation.headings.size() == 4);
+  // exp(+i w t) with +36.9 deg leads; here a lead has a negative phase.
+  CHECK(std::abs(c.excitation.at(0, 0, 2) - Complex(32000.0, -24000.0)) < 1e-6);
+  CHECK(std::abs(c.excitation.at(0, 0, 4) - Complex(64000.0, -48000.0)) < 1e-6);
+  CHECK(std::abs(c.excitation.at(0, 1, 3) - Complex(0.0, -24000.0)) < 1e-6);
+  CHECK(std::abs(c.excitation.at(0, 3, 3) - Complex(0.0, 24000.0)) < 1e-6);  // the mirror image
+  CHECK(c.excitation.at(0, 3, 2) == c.excitation.at(0, 1, 2));
+  CHECK(c.volume == std::vector<double>{20.0});
+  REQUIRE(c.waterplane.size() == 1);
+  CHECK(c.waterplane[0] == Approx(48.0));  // 12 L^2
+  CHECK(c.waterline == 0.0);
+  CHECK(c.length == 8.0);
+  CHECK(c.retardation.kernels.size() == 4);
+}
+
+TEST_CASE("a first column of frequencies has its own codes", "[wamit_file]") {
+  std::string text = kRadiation;
+  for (const auto& [period, frequency] : {std::pair<std::string, std::string>{" -0.100000E+01 ", " zero "},
+                                          {"  0.000000E+00     ", "  -1.0     "},
+                                          {"0.125663706144E+02", "0.5"},
+                                          {"0.628318530718E+01", "1.0"},
+                                          {"0.418879020479E+01", "1.5"}})
+    for (std::size_t at = text.find(period); at != std::string::npos; at = text.find(period))
+      text.replace(at, period.size(), frequency);
+  for (std::size_t at = text.find("zero"); at != std::string::npos; at = text.find("zero")) text.replace(at, 4, "0.0");
+  std::string forces = excitation();
+  for (std::size_t at = forces.find("0.628318530718E+01"); at != std::string::npos;
+       at = forces.find("0.628318530718E+01"))
+    forces.replace(at, 18, "1.0");
+  const Files by_frequency(text, forces), by_period;
+  WamitUnits u = units();
+  u.column = WamitUnits::Column::frequency;
+  const HydrodynamicCoefficients a = read_wamit(by_frequency.base, u, frame());
+  const HydrodynamicCoefficients b = read_wamit(by_period.base, units(), frame());
+  CHECK(difference(a.A_inf, b.A_inf) < 1e-9);
+  REQUIRE(a.frequency.size() == b.frequency.size());
+  for (std::size_t f = 0; f < a.frequency.size(); ++f) {
+    CHECK(a.frequency[f].frequency == Approx(b.frequency[f].frequency));
+    CHECK(difference(a.frequency[f].A, b.frequency[f].A) < 1e-9);
+  }
+  CHECK(difference(a.excitation, b.excitation) < 1e-9);
+}
+
+TEST_CASE("forces about another point and phases at another origin are moved, as forces in time", "[wamit_file]") {
+  // The truth in time: the force of the file about XBODY in the wave of the file, against ours about Bo in the same
+  // wave.
+  const Vector3 reference(1.5, -0.7, -0.4), origin(30.0, -12.0, 0.8);
+  const Files files(kRadiation, excitation({"0", "90", "180", "-90"}));
+  WamitUnits u = units();
+  u.reference = {reference};
+  DatabaseFrame f = frame();
+  f.port_starboard = false;
+  f.bodies[0].origin = origin;
+  const HydrodynamicCoefficients c = read_wamit(files.base, u, f);
+  CHECK(c.waterline == Approx(-0.8));
+  REQUIRE(c.excitation.headings.size() == 4);
+  CHECK(c.excitation.headings[3] == Approx(1.5 * std::numbers::pi));
+  const double w = 1.0, k = w * w / 10.0;
+  for (double t : {0.0, 0.9, 2.3}) {
+    const Complex turn = std::exp(Complex(0.0, w * t));
+    const Complex even = Complex(0.8, 0.6), odd = Complex(0.0, 0.3);
+    const Vector3 F(40000.0 * (even * turn).real(), 40000.0 * (odd * turn).real(), 40000.0 * (even * turn).real());
+    const Vector3 M(80000.0 * (odd * turn).real(), 80000.0 * (even * turn).real(), 80000.0 * (odd * turn).real());
+    const Vector3 expected = M + (reference - origin).cross(F);
+    const double th = k * origin.y() - w * t;  // heading 90 deg
+    for (int i = 0; i < 3; ++i) {
+      CHECK((c.excitation.at(0, 1, i) * std::exp(Complex(0.0, th))).real() == Approx(F(i)).margin(1e-6));
+      CHECK((c.excitation.at(0, 1, 3 + i) * std::exp(Complex(0.0, th))).real() == Approx(expected(i)).margin(1e-6));
+    }
+  }
+  // Energy of a motion does not depend on the point: velocities of Bo and of the reference in one rotation.
+  Vector6 V, V_reference;
+  V << 0.3, -0.2, 0.5, 0.1, -0.4, 0.2;
+  V_reference = V;
+  V_reference.head<3>() += V.tail<3>().cross(reference - origin);
+  Matrix6 A = Matrix6::Zero();
+  A(2, 2) = 8000.0, A(2, 4) = A(4, 2) = -4000.0, A(4, 4) = 96000.0;
+  CHECK(V.dot(c.A_inf * V) == Approx(V_reference.dot(A * V_reference)).epsilon(1e-12));
+}
+
+TEST_CASE("headings that come twice at the ends of the circle count once", "[wamit_file]") {
+  DatabaseFrame f = frame();
+  f.port_starboard = false;
+  const Files whole(kRadiation, excitation({"-180", "-90", "0", "90", "180"}));
+  CHECK(read_wamit(whole.base, units(), f).excitation.headings.size() == 4);
+  const std::string other = replaced(excitation({"-180", "-90", "0", "90", "180"}),
+                                     "-180  1  1.0  36.8698976458  0.8  0.6", "-180  1  2.0  36.8698976458  1.6  1.2");
+  const Files unequal(kRadiation, other);
+  CHECK_THROWS_WITH(read_wamit(unequal.base, units(), f), Catch::Contains("180 deg is given twice"));
+}
+
+TEST_CASE("broken WAMIT files are refused by line", "[wamit_file]") {
+  struct Broken {
+    std::string radiation, forces, restoring;
+    std::string where, part;
+  };
+  const std::string A = kRadiation, X = excitation(), C = kRestoring;
+  const std::vector<Broken> corpus = {
+      {"", X, C, ".1:1", "holds no numbers"},
+      {"a heading\nanother\n", X, C, ".1:2", "expected a number, got \"another\""},
+      {std::string("1 2\0 3\n", 7), X, C, ".1:1", "not text"},
+      {replaced(A, "0.110000E+01", "************"), X, C, ".1:13", "expected a number"},
+      {replaced(A, "0.110000E+01", "NaN"), X, C, ".1:13", "expected a number"},
+      {A.substr(0, A.size() - 1), X, C, ".1:20", "middle of a line"},
+      {A.substr(0, A.size() - 15) + "\n", X, C, ".1:20", "5 columns, got 4: is the file cut off?"},
+      {A.substr(0, A.rfind("  0.418879020479E+01")), X, C, ".1:19", "5,5 is missing at the period 4.18879 s"},
+      {without_infinite(), X, C, ".1:16", "infinite frequency"},
+      {replaced(A, "     3     5 -0.250", "     3     3 -0.250"), X, C, ".1:6", "repeats line 5"},
+      {replaced(A, "     3     5 -0.250", "     3     7 -0.250"), X, C, ".1:6", "mode from 1 to 6 (1 hull), got 7"},
+      {replaced(A, "     3     5 -0.250", "     3   2.5 -0.250"), X, C, ".1:6", "mode from 1 to 6"},
+      {A, "", C, ".3:1", "holds no numbers"},
+      {A, replaced(X, "0.628318530718E+01", "0.0"), C, ".3:1", "no excitation at infinite frequency"},
+      {A, replaced(X, "36.8698976458", "0.6435"), C, ".3:1", "not those of Re and Im"},
+      {A, replaced(X, "  1.0  36.8698976458  0.8  0.6", "  1.0  36.8698976458  0.8  -0.6"), C, ".3:1",
+       "not those of Re and Im"},
+      {A, replaced(X, "  1.0  36.8698976458  0.8  0.6", "  1.0  36.8698976458"), C, ".3:1", "7 columns, got 5"},
+      {A, replaced(X, "  0  3  ", "  0  1  "), C, ".3:3", "repeats line 1"},
+      {A, X.substr(0, X.rfind("  0.628318530718E+01")), C, ".3:17", "mode 6 is missing"},
+      {A, excitation({"0", "90"}), C, ".3", "must run from 0 to 180 deg, got 0 deg to 90 deg"},
+      {A, excitation({"0", "60", "90", "180"}), C, ".3", "evenly spaced over 0..180 deg"},
+      {A, replaced(X, "  0  2  0.0  0.0  0.0  0.0", "  0  2  0.3  0.0  0.3  0.0"), C, ".3", "must vanish"},
+      {A, X, "     3     3\n", ".hst:1", "3 columns, got 2"},
+      {A, X, "     4     4  0.5\n", ".hst:1", "heave is missing"},
+      {A, X, replaced(C, " 0.120000E+02", "-0.120000E+02"), ".hst:1", "heave must be >= 0"},
+  };
+  for (const Broken& broken : corpus) {
+    const Files files(broken.radiation, broken.forces, broken.restoring);
+    INFO(broken.where << " " << broken.part);
+    try {
+      read_wamit(files.base, units(), frame());
+      FAIL_CHECK("was accepted");
+    } catch (const SpecificationError& error) {
+      INFO(error.what());
+      CHECK(error.entry == files.base + broken.where);
+      CHECK(std::string(error.what()).find(broken.part) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("what WAMIT files do not say must be given", "[wamit_file]") {
+  const Files files;
+  const auto message = [&](WamitUnits u, DatabaseFrame f) -> std::string {
+    try {
+      read_wamit(files.base, u, f);
+    } catch (const SpecificationError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  WamitUnits u = units();
+  u.density = 0.0;
+  CHECK_THAT(message(u, frame()), Catch::Contains("density, gravity and ULEN"));
+  u = units();
+  u.depth = 20.0;  // k h = 2 at 1 rad/s
+  CHECK_THAT(message(u, frame()), Catch::Contains("depth of 20 m"));
+  DatabaseFrame f = frame();
+  f.accept_finite_depth = true;
+  CHECK(message(u, f) == "accepted");
+  f = frame();
+  f.length = 0.0;
+  CHECK_THAT(message(units(), f), Catch::Contains("length scale"));
+  f = frame();
+  f.bodies[0].volume = 0.0;
+  CHECK_THAT(message(units(), f), Catch::Contains("displaced volume"));
+  f = frame();
+  f.port_starboard = false;
+  CHECK_THAT(message(units(), f), Catch::Contains("around the circle"));
+  f = frame();
+  f.port_starboard = false;
+  f.bodies.push_back({Vector3::Zero(), 20.0});
+  CHECK_THAT(message(units(), f), Catch::Contains("fewer than the 2 hulls"));
+  std::filesystem::rename(files.base + ".3", files.base + ".2");
+  CHECK(message(units(), frame()) == "accepted");  // Haskind's forces serve as well
+  std::filesystem::remove(files.base + ".2");
+  CHECK_THAT(message(units(), frame()), Catch::Contains("hull.3: cannot be opened, nor"));
+}
+
+TEST_CASE("wave numbers solve the dispersion relation", "[wamit_file]") {
+  for (double w : {0.05, 0.3, 1.0, 2.5})
+    for (double h : {2.0, 20.0, 300.0}) {
+      const double k = wave_number(w, 9.81, h);
+      CHECK(9.81 * k * std::tanh(k * h) == Approx(w * w).epsilon(1e-10));
+    }
+  CHECK(wave_number(0.7, 9.81, std::numeric_limits<double>::infinity()) == Approx(0.49 / 9.81));
+}
+
+TEST_CASE("one hull and two travel through WAMIT files and back", "[wamit_file]") {
+  const bool two = GENERATE(false, true);
+  const bool by_frequency = GENERATE(false, true);
+  const TemporaryFolder folder;
+  HydrodynamicCoefficients c = two ? pair_set() : crane_set();
+  WamitUnits u;
+  u.ulen = 3.7;
+  u.density = c.density;
+  u.gravity = c.gravity;
+  u.column = by_frequency ? WamitUnits::Column::frequency : WamitUnits::Column::period;
+  DatabaseFrame f;
+  f.length = c.length;
+  f.bodies = {{Vector3(10.0, 4.0, -c.waterline), c.volume[0]}};
+  u.reference = {Vector3(11.0, 4.5, 2.0)};
+  if (two) {
+    f.bodies.push_back({Vector3(-7.0, 60.0, -c.waterline), c.volume[1]});
+    u.reference.push_back(Vector3(-7.5, 61.0, -1.0));
+  }
+  Matrix6 stiffness = Matrix6::Identity();
+  std::vector<Matrix6> restoring;
+  for (double area : c.waterplane) {
+    stiffness(2, 2) = c.density * c.gravity * area;
+    restoring.push_back(stiffness);
+  }
+  write_wamit(folder / "set", c, u, f, restoring);
+  CHECK(folder.files() == 3);
+  const HydrodynamicCoefficients back = read_wamit(folder / "set", u, f);
+  // Nine digits, of numbers about a point where moments are larger by some per cent.
+  CHECK(difference(c.A_inf, back.A_inf) < 1e-7);
+  REQUIRE(back.frequency.size() == c.frequency.size());
+  for (std::size_t n = 0; n < c.frequency.size(); ++n) {
+    CHECK(back.frequency[n].frequency == Approx(c.frequency[n].frequency));
+    CHECK(difference(c.frequency[n].A, back.frequency[n].A) < 1e-7);
+    if (n > 0) CHECK(difference(c.frequency[n].B, back.frequency[n].B) < 1e-6);
+  }
+  CHECK(difference(c.excitation, back.excitation) < 1e-7);
+  REQUIRE(back.waterplane.size() == c.waterplane.size());
+  for (std::size_t n = 0; n < c.waterplane.size(); ++n) CHECK(back.waterplane[n] == Approx(c.waterplane[n]));
+}
+
+TEST_CASE("a dense WAMIT set passes every self-check, as its original does", "[wamit_file]") {
+  const TemporaryFolder folder;
+  HydrodynamicCoefficients c = crane_set();
+  std::vector<double> frequencies;
+  for (int n = 1; n <= 75; ++n) frequencies.push_back(0.04 * n);
+  c.frequency = sampled(c, frequencies);
+  WamitUnits u;
+  u.density = c.density;
+  u.gravity = c.gravity;
+  DatabaseFrame f;
+  f.length = c.length;
+  f.bodies = {{Vector3::Zero(), c.volume[0]}};
+  write_wamit(folder / "set", c, u, f);
+  CHECK_NOTHROW(require_self_checks(read_wamit(folder / "set", u, f)));
+  u.ulen = 2.0;  // another unit of length than it was written with
+  CHECK_THROWS_AS(require_self_checks(read_wamit(folder / "set", u, f)), SpecificationError);
+}
+
+TEST_CASE("a set that WAMIT files cannot hold is refused", "[wamit_file]") {
+  const TemporaryFolder folder;
+  HydrodynamicCoefficients c = crane_set();
+  WamitUnits u = units();
+  DatabaseFrame f;
+  f.length = c.length;
+  CHECK_THROWS_WITH(write_wamit(folder / "set", pair_set(), u, f), Catch::Contains("every hull"));
+  f.bodies[0].origin.z() = 1.0;
+  CHECK_THROWS_WITH(write_wamit(folder / "set", c, u, f), Catch::Contains("water plane"));
+  f.bodies[0].origin.z() = 0.0;
+  c.frequency.clear();
+  CHECK_THROWS_WITH(write_wamit(folder / "set", c, u, f), Catch::Contains("no table of A and B"));
+  CHECK(folder.files() == 0);
+}
+
+}  // namespace stillhook
