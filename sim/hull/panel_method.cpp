@@ -122,11 +122,6 @@ void scatter(const Matrix<Scalar>& block, const std::vector<int>& modes, Matrix<
     for (std::size_t j = 0; j < modes.size(); ++j) all(modes[i], modes[j]) = block(i, j);
 }
 
-/// -int psi_j n_i rho dS by a response matrix of the hull panels.
-MatrixX inertia(const MatrixX& response, const ClassModes& modes, const VectorX& weight) {
-  return -modes.normal.transpose() * weight.asDiagonal() * (response * modes.normal);
-}
-
 class Computation {
  public:
   Computation(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options, PanelMethodReport& report,
@@ -201,8 +196,8 @@ class Computation {
     for (const BoundaryClass& c : limit_problem(panels)) {
       const ClassModes modes = modes_of(panels, layout_, c.parity);
       if (modes.modes.empty()) continue;
-      scatter<double>(inertia(c.local, modes, weight), modes.modes, set_.A_inf);
-      scatter<double>(inertia(c.hull_response, modes, weight), modes.modes, zero.A);
+      scatter<double>(inertia_of(c.local, modes, weight), modes.modes, set_.A_inf);
+      scatter<double>(inertia_of(c.hull_response, modes, weight), modes.modes, zero.A);
     }
     symmetrise(zero.A, zero.A);
     symmetrise(set_.A_inf, zero.A);
@@ -225,7 +220,7 @@ class Computation {
     for (const BoundaryClass& c : boundary_problem(panels, surface)) {
       const ClassModes modes = modes_of(panels, layout_, c.parity);
       if (modes.modes.empty()) continue;
-      scatter<double>(inertia(c.local, modes, weight), modes.modes, A_inf);
+      scatter<double>(inertia_of(c.local, modes, weight), modes.modes, A_inf);
       const std::vector<Matrix<Complex>> v(count, modes.normal.cast<Complex>());
       const std::vector<FrequencyResponse> responses =
           frequency_responses(c, surface, beach_of(band), options_.gravity, band.frequencies, v);

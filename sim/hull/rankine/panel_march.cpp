@@ -14,8 +14,8 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kCellsPerWave = 16.0, kGrowth = 0.06, kCellsPerLongestWave = 20.0;
 // The beach: width in longest waves, and its strength over the geometric mean of the band's ends.
 constexpr double kBeachWidth = 1.0, kBeachStrength = 0.95;
-// Panels across a hull.
-constexpr double kPanelsAcross = 8.0;
+// Panels across a hull, cells at its waterline in its breadth.
+constexpr double kPanelsAcross = 8.0, kCellsAcross = 14.0;
 // Share of the stability limit that is used.
 constexpr double kStable = 0.9;
 
@@ -44,7 +44,7 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
   for (const Placement& p : layout.hulls) breadth = std::min({breadth, p.breadth, p.length});
   const double panel = (options.panel_length > 0.0 ? options.panel_length : breadth / kPanelsAcross);
   FreeSurfaceGrid grid;
-  grid.near = std::min(panel, wave(options.highest) / kCellsPerWave) / options.refinement;
+  grid.near = std::min(panel * kPanelsAcross / kCellsAcross, wave(options.highest) / kCellsPerWave) / options.refinement;
   if (layout.gap > 0.0) grid.near = std::min(grid.near, layout.gap / 4.0 / options.refinement);
   grid.far = wave(options.lowest) / kCellsPerLongestWave / options.refinement;
   grid.growth = kGrowth;
@@ -82,6 +82,11 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
     m.P = P.cast<float>();
     classes_.push_back(std::move(m));
   }
+  // The local part, which no wave is in, by finer panels: what these panels miss of it goes with every frequency.
+  const double longest = panel / options.refinement;
+  const MatrixX missed = infinite_frequency_mass(hulls, layout, 0.5 * longest, options.density) -
+                         infinite_frequency_mass(hulls, layout, longest, options.density);
+  A_inf_ += T.transpose() * missed * T;
   A_inf_ = (0.5 * (A_inf_ + A_inf_.transpose())).eval();
   stable_ = kStable * 2.0 / std::sqrt(fastest);
   if (!(dt_ > 0.0 && dt_ <= stable_)) {
