@@ -30,6 +30,7 @@ class LiftCheck {
     for (const ClearanceSpec& clearance : spec_.clearances)
       if (clearance.a.body == clearance.b.body)
         report("clearances." + clearance.name, "b.body", "is the same body as that of a");
+    check_panel_method();
     check_solver();
   }
 
@@ -98,11 +99,36 @@ class LiftCheck {
         if (written(entry, velocity)) report(entry, velocity, "has a meaning only with solver.static_start = false");
   }
 
+  void check_coupling(const BodySpec& body, const std::string& entry) {
+    const HydrodynamicsSpec& h = body.hydrodynamics;
+    if (h.radiation == HydrodynamicsSpec::RadiationModel::direct && h.kind != HydrodynamicsSpec::Kind::panels)
+      report(entry, "radiation", "\"direct\" marches the panel method: it needs kind = \"panels\"");
+    if (!h.coupled_until.empty() && h.coupled_with.empty())
+      report(entry, "coupled_until", "has a meaning only with coupled_with");
+    if (h.coupled_with.empty()) return;
+    if (h.coupled_with == body.name) report(entry, "coupled_with", "must be another body");
+    for (const BodySpec& other : spec_.bodies)
+      if (other.name == h.coupled_with && other.hydrodynamics.kind != HydrodynamicsSpec::Kind::panels)
+        report(entry, "coupled_with", fmt::format("must be a body with kind = \"panels\", \"{}\" is not", other.name));
+  }
+
+  void check_panel_method() {
+    const PanelMethodSpec& p = spec_.panel_method;
+    if (p.highest <= p.lowest)
+      report("panel_method", "highest_rad_per_s",
+             fmt::format("must be above lowest_rad_per_s = {:.6g}, got {:.6g}", p.lowest, p.highest));
+    if (p.direct_highest <= p.direct_lowest)
+      report("panel_method", "direct_highest_rad_per_s",
+             fmt::format("must be above direct_lowest_rad_per_s = {:.6g}, got {:.6g}", p.direct_lowest,
+                         p.direct_highest));
+  }
+
   void check_hull(const BodySpec& body, const std::string& entry) {
     using Kind = HydrodynamicsSpec::Kind;
     const HydrodynamicsSpec& h = body.hydrodynamics;
     if (body.hull.shape == HullSpec::Shape::none && h.kind != Kind::none)
       report(entry + ".hydrodynamics", "kind", "needs a [bodies.hull] of the same body");
+    check_coupling(body, entry + ".hydrodynamics");
     if (h.kind == Kind::constant) {
       if (h.added_mass.isZero(0.0))
         report(entry + ".hydrodynamics", "kind", "\"constant\" needs added_mass_t or added_mass_matrix_t_m");

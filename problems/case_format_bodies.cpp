@@ -103,6 +103,21 @@ const Table& hull_table() {
         .only_when("shape", {"mesh"});
     t.vector("mesh_origin_m", &S::mesh_origin, unit::m, any_value(), "Position of the file's origin in the body frame.")
         .only_when("shape", {"mesh"});
+    Field& attitude = t.numbers(
+        "mesh_attitude_deg", {3},
+        [](S& s, const std::vector<double>& v) {
+          s.mesh_attitude = {v[0], v[1], v[2]};
+        },
+        unit::deg, Range{-360.0, 360.0, false},
+        "Roll, pitch, yaw of the file's axes in the body frame: 180, 0, 0 for a file with z down and y to starboard.");
+    attitude.get = [](const void* s) -> std::optional<Value> {
+      const RollPitchYaw& a = static_cast<const S*>(s)->mesh_attitude;
+      return Value(std::vector<double>{a.roll, a.pitch, a.yaw});
+    };
+    attitude.only_when("shape", {"mesh"});
+    t.boolean("mesh_mend", &S::mesh_mend,
+              "Close small holes and turn triangles that face inwards, instead of refusing the file; the results say so.")
+        .only_when("shape", {"mesh"});
     t.number("panel_length_m", &S::panel_length, unit::m, positive(), "Wanted edge of a panel.").absent("automatic");
     t.choice<decltype(&S::froude_krylov), S::FroudeKrylov>(
         "froude_krylov", &S::froude_krylov,

@@ -256,8 +256,11 @@ class ModelBuilder {
   void add_hydrodynamics() {
     const std::vector<BodySpec>& bodies = spec().bodies;
     std::vector<Mesh> meshes;
-    for (const BodySpec& b : bodies)
-      meshes.push_back(b.hull.shape == HullSpec::Shape::none ? Mesh{} : build_hull_mesh(b.hull));
+    for (const BodySpec& b : bodies) {
+      std::string mended;
+      meshes.push_back(b.hull.shape == HullSpec::Shape::none ? Mesh{} : build_hull_mesh(b.hull, &mended));
+      if (!mended.empty()) model_.warnings_.push_back(mended);
+    }
     model_.coefficients_.resize(bodies.size());
     std::vector<HydrodynamicsGroup> groups;
     for (const std::vector<std::size_t>& hulls : coupled_groups()) groups.push_back(prepare_group(hulls, meshes));

@@ -62,6 +62,8 @@ struct HullSpec {
   std::string mesh_file;               // resolved path of an STL, OBJ or GDF file
   double mesh_scale = 1.0;             // metres per unit of the file
   Vector3 mesh_origin = Vector3::Zero();  // m, position in B of the file's origin
+  RollPitchYaw mesh_attitude;          // rad, of the file's axes in B
+  bool mesh_mend = false;              // turn triangles that face inwards, close small holes
   double panel_length = 0.0;           // m, target edge of a panel; 0 = automatic
   FroudeKrylov froude_krylov = FroudeKrylov::pressure;
 };

@@ -34,8 +34,10 @@ struct SearchOptions {
   int evaluations = 60;                    // > 0
   double time_budget = 0.0;                // s of wall time, 0 = none; a budget of time gives up reproducibility
   unsigned long seed = 1;
-  double constraint_tolerance = 1e-6;                   // >= 0: g <= this counts as feasible
-  double initial_step = 0.15;                           // in (0, 1], share of the range, of the first local run
+  double constraint_tolerance = 1e-6;  // >= 0: g <= this counts as feasible
+  // In (0, 1], share of the range, of the first local run. Large: the linear models of COBYLA then average over the
+  // jumps of the objective (a re-hit more or less) instead of following them.
+  double initial_step = 0.4;
   double x_tolerance = 1e-5;                            // > 0, share of the range: local runs stop below it
   std::vector<Eigen::VectorXd> starts;                  // besides the problem's own, within the bounds
   const std::atomic<bool>* stop = nullptr;              // set from outside to end the search with its best so far

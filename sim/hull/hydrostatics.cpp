@@ -350,7 +350,7 @@ void check_resolution(const BodySpec& body, const Mesh& mesh, const WaveField& w
 
 }  // namespace
 
-Mesh build_hull_mesh(const HullSpec& hull) {
+Mesh build_hull_mesh(const HullSpec& hull, std::string* mended) {
   if (hull.shape == HullSpec::Shape::none) return {};
   if (hull.panel_length < 0.0 || !std::isfinite(hull.panel_length)) throw MeshError("the panel length must be > 0 m");
   if (hull.shape == HullSpec::Shape::box) {
@@ -358,7 +358,8 @@ Mesh build_hull_mesh(const HullSpec& hull) {
     const double area = 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
     return box_mesh(s, hull.centre, hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(area));
   }
-  const Mesh mesh = read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin});
+  const Mesh mesh = read_mesh(
+      hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend}, mended);
   const double panel = hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(properties_of(mesh).area);
   return refined_mesh(mesh, panel * std::numbers::sqrt2);
 }

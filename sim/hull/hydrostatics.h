@@ -22,7 +22,7 @@ namespace stillhook {
 
 /// The mesh of a hull in B: a box divided into panels, or the mesh file with edges longer than a panel's diagonal
 /// halved. panel_length = 0 takes automatic_panel_length. Throws MeshError; a hull without shape gives an empty mesh.
-Mesh build_hull_mesh(const HullSpec& hull);
+Mesh build_hull_mesh(const HullSpec& hull, std::string* mended = nullptr);
 
 /// The element "<body>.hydrostatics" with channels <body>.buoyancy (N, vertical force) and <body>.submerged_volume (m3,
 /// below the wave profile). Its potential energy is rho g times the first moment of the submerged volume about the

@@ -79,7 +79,16 @@ void check_closed(const EdgeMap& edges, const std::string& what) {
 class Orientation {
  public:
   Orientation(const Mesh& mesh, const EdgeMap& edges)
-      : mesh_(mesh), edges_(edges), turned_(mesh.triangles.size(), -1) {}
+      : mesh_(mesh), edges_(edges), turned_(mesh.triangles.size(), -1), outward_(mesh.triangles.size(), 0) {}
+
+  /// The triangles that face inwards; nothing when a part has only one side.
+  std::vector<int> to_turn() {
+    std::vector<int> inward;
+    if (inward_triangles() < 0) return inward;
+    for (std::size_t t = 0; t < turned_.size(); ++t)
+      if (turned_[t] != outward_[t]) inward.push_back(static_cast<int>(t));
+    return inward;
+  }
 
   /// Number of triangles that face inwards; -1 when a part has only one side.
   long inward_triangles() {
@@ -121,15 +130,77 @@ class Orientation {
       volume += turned_[t] ? -six : six;
       turned += turned_[t];
     }
+    // Those that stand as in the orientation of positive volume face outwards.
+    for (const int t : part) outward_[t] = volume > 0.0 ? 0 : 1;
     return volume > 0.0 ? turned : static_cast<long>(part.size()) - turned;
   }
 
   const Mesh& mesh_;
   const EdgeMap& edges_;
-  std::vector<int> turned_;  // 0 as given, 1 the other way round, -1 not visited
+  std::vector<int> turned_;   // 0 as given, 1 the other way round, -1 not visited
+  std::vector<int> outward_;  // the value of turned_ that faces outwards in the triangle's part
 };
 
+/// Rims of holes: closed loops of edges that belong to one triangle only, run against that triangle's own direction.
+std::vector<std::vector<int>> rims_of(const Mesh& mesh, const EdgeMap& edges) {
+  std::unordered_map<int, int> next;
+  for (const auto& t : mesh.triangles)
+    for (int e = 0; e < 3; ++e) {
+      const int a = t[e], b = t[(e + 1) % 3];
+      if (edges.at(edge_key(a, b)).count == 1) next[b] = a;
+    }
+  std::vector<std::vector<int>> rims;
+  while (!next.empty()) {
+    std::vector<int> rim{next.begin()->first};
+    for (auto it = next.find(rim[0]); it != next.end(); it = next.find(rim.back())) {
+      const int to = it->second;
+      next.erase(it);
+      if (to == rim[0]) {
+        rims.push_back(rim);
+        break;
+      }
+      rim.push_back(to);
+    }
+  }
+  return rims;
+}
+
 }  // namespace
+
+Mesh mended_mesh(const Mesh& mesh, std::string& done) {
+  Mesh result = mesh;
+  const MeshProperties p = properties_of(mesh);
+  const double size = (p.high - p.low).norm();
+  int holes = 0;
+  for (const std::vector<int>& rim : rims_of(mesh, edges_of(mesh))) {
+    double around = 0.0;
+    Vector3 middle = Vector3::Zero();
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      around += (mesh.vertices[rim[i]] - mesh.vertices[rim[(i + 1) % rim.size()]]).norm();
+      middle += mesh.vertices[rim[i]] / static_cast<double>(rim.size());
+    }
+    if (rim.size() < 3 || around > kSmallHole * size) continue;
+    ++holes;
+    if (rim.size() == 3) {
+      result.triangles.push_back({rim[0], rim[1], rim[2]});
+      continue;
+    }
+    result.vertices.push_back(middle);
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      result.triangles.push_back(
+          {rim[i], rim[(i + 1) % rim.size()], static_cast<int>(result.vertices.size()) - 1});
+  }
+  const EdgeMap edges = edges_of(result);
+  std::vector<int> turn;
+  if (std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 2; }))
+    turn = Orientation(result, edges).to_turn();
+  for (const int t : turn) std::swap(result.triangles[t][1], result.triangles[t][2]);
+  done.clear();
+  if (holes > 0) done = count_of(holes, "hole closed", "holes closed");
+  if (!turn.empty())
+    done += (done.empty() ? "" : ", ") + count_of(turn.size(), "triangle turned outwards", "triangles turned outwards");
+  return result;
+}
 
 void check_mesh(const Mesh& mesh, const std::string& what) {
   check_numbers(mesh, what);

@@ -280,7 +280,7 @@ Mesh read_gdf(const std::string& path, const std::string& text, double scale) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path, const MeshFileOptions& options) {
+Mesh read_mesh(const std::string& path, const MeshFileOptions& options, std::string* mended) {
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) fail(path, "the scale of a mesh must be > 0");
   const std::string extension = lower(std::filesystem::path(path).extension().string());
   if (extension != ".stl" && extension != ".obj" && extension != ".gdf")
@@ -290,13 +290,19 @@ Mesh read_mesh(const std::string& path, const MeshFileOptions& options) {
               : extension == ".obj" ? read_obj(path, bytes)
                                     : read_gdf(path, bytes, options.scale);
   if (mesh.triangles.empty()) fail(path, "the file holds no triangles");
+  const Matrix3 R = rotation_from(options.attitude);
   for (Vector3& v : mesh.vertices) {
-    v = options.origin + options.scale * v;
+    v = options.origin + options.scale * (R * v);
     if (!(v.cwiseAbs().maxCoeff() < kFarthest))
       fail(path, "a vertex lies more than 100 km from the origin of the body; check the scale");
   }
   const MeshProperties p = properties_of(mesh);
   mesh = welded_mesh(mesh, 1e-6 * (p.high - p.low).norm());
+  if (options.mend) {
+    std::string done;
+    mesh = mended_mesh(mesh, done);
+    if (mended && !done.empty()) *mended = path + ": " + done;
+  }
   check_mesh(mesh, path);
   return mesh;
 }

@@ -20,10 +20,13 @@ namespace stillhook {
 struct MeshFileOptions {
   double scale = 1.0;                // m per unit of the file
   Vector3 origin = Vector3::Zero();  // m, position in B of the file's origin
+  RollPitchYaw attitude = {};        // rad, of the file's axes in B
+  bool mend = false;                 // mended_mesh of mesh.h before the check
 };
 
 /// The mesh of a file in the body frame B (m), merged and checked by check_mesh. Throws MeshError with the file's name
 /// and, where there is one, the line.
-Mesh read_mesh(const std::string& path, const MeshFileOptions& options = {});
+/// With options.mend, `mended` (if given) is what was done, as a sentence, empty if nothing.
+Mesh read_mesh(const std::string& path, const MeshFileOptions& options = {}, std::string* mended = nullptr);
 
 }  // namespace stillhook

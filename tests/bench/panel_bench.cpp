@@ -42,6 +42,16 @@ void save(const Plot& plot, const std::string& name) {
   std::ofstream(folder / (name + ".svg")) << svg;
 }
 
+/// A value of another's as a short stroke.
+void add_stroke(PlotLine& line, double x, double value, double half) {
+  for (const double at : {x - half, x + half}) {
+    line.time.push_back(at);
+    line.value.push_back(value);
+  }
+  line.time.push_back(x + half);
+  line.value.push_back(std::nan(""));
+}
+
 PanelHull crane() {
   PanelHull hull;
   hull.name = "crane";
@@ -69,7 +79,7 @@ void hemisphere() {
     fmt::print("  Ka    A33    B33    A11    B11\n");
     const double mass = options.density * c.volume[0];
     Plot plot;
-    plot.title = "Floating hemisphere: panel method (lines) and exact solution (dots)";
+    plot.title = "Floating hemisphere: panel method (lines) and exact solution (strokes)";
     plot.x_label = "Ka";
     plot.y_label = "A, B over displaced mass";
     std::vector<PlotLine> lines = {{"A heave", {}, {}}, {"B heave", {}, {}}, {"A surge", {}, {}}, {"B surge", {}, {}},
@@ -87,8 +97,7 @@ void hemisphere() {
       for (int k = 0; k < 4; ++k) {
         lines[k].time.push_back(exact.Ka);
         lines[k].value.push_back(found[k]);
-        lines[k + 4].time.push_back(exact.Ka);
-        lines[k + 4].value.push_back(truth[k]);
+        add_stroke(lines[k + 4], exact.Ka, truth[k], 0.02);
       }
     }
     plot.lines = lines;
@@ -127,17 +136,18 @@ void box() {
     }
   for (int i = 0; i < 6; ++i) {
     Plot plot;
-    plot.title = fmt::format("Box hull 110 x 46 x 4 m, {}: panel method (lines), two other codes (dots)", kModes[i]);
+    plot.title = fmt::format("Box hull 110 x 46 x 4 m, {}: panel method (lines), two other codes (strokes)", kModes[i]);
     plot.x_label = "frequency, rad/s";
-    plot.y_label = i < 3 ? "A, t;  B, t/s" : "A, t m2;  B, t m2/s";
+    plot.y_label = i < 3 ? "A, kt;  B, kt/s" : "A, Mt m2;  B, Mt m2/s";
+    const double unit = i < 3 ? 1e6 : 1e9;
     PlotLine A{"A", {}, {}}, B{"B", {}, {}}, A_other{"A, others", {}, {}}, B_other{"B, others", {}, {}};
     for (const FrequencyCoefficients& f : c.frequency) {
-      A.time.push_back(f.frequency), A.value.push_back(f.A(i, i) / 1000.0);
-      B.time.push_back(f.frequency), B.value.push_back(f.B(i, i) / 1000.0);
+      A.time.push_back(f.frequency), A.value.push_back(f.A(i, i) / unit);
+      B.time.push_back(f.frequency), B.value.push_back(f.B(i, i) / unit);
     }
     for (const truth::BoxHull& e : truth::kBoxHull) {
-      A_other.time.push_back(e.frequency), A_other.value.push_back(e.A[i] / 1000.0);
-      B_other.time.push_back(e.frequency), B_other.value.push_back(e.B[i] / 1000.0);
+      add_stroke(A_other, e.frequency, e.A[i] / unit, 0.02);
+      add_stroke(B_other, e.frequency, e.B[i] / unit, 0.02);
     }
     plot.lines = {A, B, A_other, B_other};
     save(plot, fmt::format("box_{}", kModes[i]));

@@ -111,7 +111,7 @@ TEST_CASE("the program tells each broken case on stderr and ends with 2", "[case
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("stillhook bad input " + std::to_string(::getpid()));
   fs::create_directories(folder);
-  for (const char* mesh : {"open.obj", "inverted.obj"}) fs::copy_file(kFolder + "/" + mesh, folder / mesh);
+  for (const char* mesh : {"open.obj", "inverted.obj", "foreign.h5", "short.1"}) fs::copy_file(kFolder + "/" + mesh, folder / mesh);
   const std::string file = (folder / "bad.toml").string(), messages = (folder / "stderr").string();
   const std::string command =
       std::string(STILLHOOK_PROGRAM) + " check '" + file + "' > /dev/null 2> '" + messages + "'";

@@ -183,3 +183,37 @@ TEST_CASE("a box that cannot be divided is refused") {
 
 }  // namespace
 }  // namespace stillhook
+
+namespace stillhook {
+
+TEST_CASE("a mesh with small faults is mended when that is asked for", "[mesh]") {
+  const Mesh good = box_mesh(Vector3(20.0, 10.0, 6.0), Vector3(0.0, 0.0, 0.0), 1.0);
+  std::string done;
+  const Mesh same = mended_mesh(good, done);
+  CHECK(done.empty());
+  CHECK(same.triangles == good.triangles);
+
+  Mesh bad = good;
+  bad.triangles.erase(bad.triangles.begin() + 40);                           // one triangle missing
+  for (int i = 100; i < 110; ++i) std::swap(bad.triangles[i][1], bad.triangles[i][2]);  // ten turned
+  CHECK_THROWS_AS(check_mesh(bad, "box"), MeshError);
+  const Mesh mended = mended_mesh(bad, done);
+  CHECK(done == "1 hole closed, 10 triangles turned outwards");
+  CHECK_NOTHROW(check_mesh(mended, "box"));
+  CHECK(properties_of(mended).volume == Approx(1200.0).epsilon(1e-12));
+
+  Mesh inside_out = good;
+  for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
+  CHECK(properties_of(mended_mesh(inside_out, done)).volume == Approx(1200.0));
+
+  // A missing side is no small hole: it is left open, and named.
+  Mesh open = good;
+  std::erase_if(open.triangles, [&](const auto& t) {
+    return good.vertices[t[0]].z() > 2.99 && good.vertices[t[1]].z() > 2.99 && good.vertices[t[2]].z() > 2.99;
+  });
+  const Mesh left = mended_mesh(open, done);
+  CHECK(done.empty());
+  CHECK_THROWS_WITH(check_mesh(left, "box"), Catch::Contains("open"));
+}
+
+}  // namespace stillhook
