@@ -5,6 +5,7 @@
 #include "sim/hull/damping.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/immersion.h"
 #include "sim/hull/parting_hydrodynamics.h"
 #include "sim/lifting/wire.h"
 #include "sim/model.h"
@@ -300,7 +301,24 @@ class ModelBuilder {
     const MeshProperties size = properties_of(mesh);
     const Vector3 middle = 0.5 * (size.low + size.high);
     hull.waterline = -(Bo.z() + b.R_WB(2, 0) * middle.x() + b.R_WB(2, 1) * middle.y()) / b.R_WB(2, 2);
+    // A run that starts from given poses may start away from where the hull floats, as a decay test does.
+    if (!spec().solver.static_start) hull.waterline = floating_waterline(static_cast<int>(body), mesh, size);
     return hull;
+  }
+
+  /// Where the hull, upright, displaces the mass of everything jointed to it; in B, m.
+  double floating_waterline(int hull, const Mesh& mesh, const MeshProperties& size) const {
+    double mass = 0.0;
+    const std::vector<bool> rigid = jointed_to(model_.system_, hull);
+    for (std::size_t i = 0; i < rigid.size(); ++i)
+      if (rigid[i]) mass += spec().bodies[i].mass;
+    double low = size.low.z(), high = size.high.z();
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      const double volume = immersion_of(mesh, {Matrix3::Identity(), {0.0, 0.0, -middle}}).volume;
+      (spec().sea.density * volume < mass ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
   }
 
   struct HydrodynamicsGroup {

@@ -26,6 +26,8 @@ constexpr double kGrowth = 0.25;
 constexpr double kBeachWidth = 1.2;
 // Cells across the gap between two hulls.
 constexpr double kCellsInGap = 5.0;
+// Added inertia below this share of the displaced mass times the square of half the length is noise of the panels.
+constexpr double kStill = 1e-3;
 // Phase of the wave at half the hull's length from one frequency of the excitation to the next, rad.
 constexpr double kPhaseStep = 0.5;
 
@@ -201,6 +203,15 @@ class Computation {
     }
     symmetrise(zero.A, zero.A);
     symmetrise(set_.A_inf, zero.A);
+    still_.assign(modes_, false);
+    for (int i = 0; i < modes_; ++i) {
+      const Placement& p = layout_.hulls[i / 6];
+      still_[i] = i % 6 >= 3 && zero.A(i, i) < kStill * options_.density * set_.volume[i / 6] *
+                                                   std::pow(0.5 * std::max(p.length, p.breadth), 2);
+    }
+    scale_ = zero.A;
+    clear_still(zero.A);
+    clear_still(set_.A_inf);
     A_inf_middle_ = set_.A_inf;
     set_.A_inf = about_origin(set_.A_inf);
     zero.A = about_origin(zero.A);
@@ -238,8 +249,10 @@ class Computation {
       // The error of the panels is nearly the same at every frequency: it goes with A_inf of the same panels.
       FrequencyCoefficients at{band.frequencies[f], A_inf_middle_ + A[f].real() - A_inf,
                                band.frequencies[f] * A[f].imag()};
-      symmetrise(at.A, set_.frequency.front().A);
-      symmetrise(at.B, band.frequencies[f] * set_.frequency.front().A);
+      symmetrise(at.A, scale_);
+      symmetrise(at.B, band.frequencies[f] * scale_);
+      clear_still(at.A);
+      clear_still(at.B);
       at.A = about_origin(at.A);
       at.B = about_origin(at.B);
       set_.frequency.push_back(std::move(at));
@@ -293,7 +306,7 @@ class Computation {
         const Eigen::VectorXcd X_D = Complex(0.0, w) * (potential.transpose() * velocity);
         for (std::size_t k = 0; k < modes.modes.size(); ++k)
           X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]) =
-              X_D(k) * phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity);
+              (still_[modes.modes[k]] ? 0.0 : X_D(k)) * phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity);
       }
     }
   }
@@ -313,9 +326,22 @@ class Computation {
           Eigen::Map<Eigen::Matrix<Complex, 6, 1>> at(&X.at(static_cast<int>(f), static_cast<int>(h), 6 * k));
           at.tail<3>() += cross_matrix(arm).cast<Complex>() * at.head<3>();
           at += froude_krylov.col(h);
+          // A turn that moves no water has no moment about the middle either.
+          const Eigen::Vector3cd about_middle = cross_matrix(arm).cast<Complex>() * at.head<3>();
+          for (int i = 3; i < 6; ++i)
+            if (still_[6 * k + i]) at(i) = about_middle(i - 3);
         }
       }
     }
+  }
+
+  /// A turn that moves no water, as of a body of revolution about its axis: what the panels leave of it is noise.
+  void clear_still(MatrixX& M) const {
+    for (int i = 0; i < modes_; ++i)
+      if (still_[i]) {
+        M.row(i).setZero();
+        M.col(i).setZero();
+      }
   }
 
   MatrixX about_origin(const MatrixX& M) const { return to_middle_.transpose() * M * to_middle_; }
@@ -338,6 +364,8 @@ class Computation {
   MatrixX to_middle_;
   int modes_;
   MatrixX A_inf_middle_;
+  MatrixX scale_;            // A(0) about the middles
+  std::vector<bool> still_;  // of each mode
   HydrodynamicCoefficients set_;
 };
 

@@ -1,6 +1,6 @@
 // What the panel method gives and costs, run by hand:
 //
-//   build/stillhook_panel_bench [folder for plots]
+//   build/stillhook_panel_bench [folder for plots [plots only]]
 //
 // Coefficients of the reference crane hull and of a hemisphere against what others computed (the truths of the tests),
 // as tables and SVG plots; processor time of the computation, of the cache, of the state space in a simulation step, and
@@ -201,5 +201,5 @@ int main(int argc, char** argv) {
   if (argc > 1) folder = argv[1];
   box();
   hemisphere();
-  in_simulation();
+  if (argc <= 2) in_simulation();  // anything after the folder: only the plots
 }
