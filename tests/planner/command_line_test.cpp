@@ -1,8 +1,4 @@
 // The program as a user meets it: exit codes, streams, folders, Ctrl-C, kill -9 and resume.
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
@@ -12,6 +8,7 @@
 #include <thread>
 
 #include "planner/plan.h"
+#include "tests/planner/program.h"
 
 using namespace stillhook;
 namespace fs = std::filesystem;
@@ -20,56 +17,6 @@ using nlohmann::json;
 namespace {
 
 const std::string kCase = std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml";
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "stillhook-cli-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-  fs::path path;
-};
-
-std::string content(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
-
-/// Starts the program in `folder` with stdout and stderr in files there.
-pid_t start(const Folder& folder, std::vector<std::string> arguments) {
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child > 0) return child;
-  if (chdir(folder.path.c_str()) != 0) _exit(99);
-  const int out = open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int err = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  dup2(out, STDOUT_FILENO);
-  dup2(err, STDERR_FILENO);
-  arguments.insert(arguments.begin(), STILLHOOK_PROGRAM);
-  std::vector<char*> argv;
-  for (std::string& a : arguments) argv.push_back(a.data());
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
-  _exit(98);
-}
-
-Result finish(const Folder& folder, pid_t child) {
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(folder / "stdout.txt"),
-          content(folder / "stderr.txt")};
-}
-
-Result run(const Folder& folder, const std::vector<std::string>& arguments) {
-  return finish(folder, start(folder, arguments));
-}
 
 /// Evaluations in the store of a run folder, 0 as long as there is none.
 int stored(const std::string& folder) {

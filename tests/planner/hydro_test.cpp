@@ -1,8 +1,4 @@
 // `stillhook hydro` as a user meets it: a small box, coarse panels, the files it leaves, the cache.
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
@@ -14,28 +10,13 @@
 
 #include "planner/hydro_convergence.h"
 #include "sim/hull/database.h"
+#include "tests/planner/program.h"
 
 using namespace stillhook;
 namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "stillhook-hydro-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-  fs::path path;
-};
-
-std::string content(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A box of 40 x 20 m afloat at 2 m, moored by its own stiffness alone, and a load on a wire.
 std::string write_case(const Folder& folder, const std::string& hydrodynamics = "kind = \"panels\"",
@@ -78,38 +59,9 @@ duration_s = 10.0
   return folder / "box.toml";
 }
 
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
-
-pid_t start(const Folder& folder, std::vector<std::string> arguments) {
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child > 0) return child;
-  if (chdir(folder.path.c_str()) != 0) _exit(99);
-  setenv("STILLHOOK_CACHE", (folder / "cache").c_str(), 1);
-  const int out = open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int err = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  dup2(out, STDOUT_FILENO);
-  dup2(err, STDERR_FILENO);
-  arguments.insert(arguments.begin(), STILLHOOK_PROGRAM);
-  std::vector<char*> argv;
-  for (std::string& a : arguments) argv.push_back(a.data());
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
-  _exit(98);
-}
-
-Result finish(const Folder& folder, pid_t child) {
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(folder / "stdout.txt"),
-          content(folder / "stderr.txt")};
-}
-
-Result run(const Folder& folder, const std::vector<std::string>& arguments) {
-  return finish(folder, start(folder, arguments));
+/// With a cache of the test's own.
+Result run_hydro(const Folder& folder, const std::vector<std::string>& arguments) {
+  return run(folder, arguments, folder / "cache");
 }
 
 }  // namespace
@@ -117,7 +69,7 @@ Result run(const Folder& folder, const std::vector<std::string>& arguments) {
 TEST_CASE("hydro computes, writes every file, and takes the second run from the cache", "[hydro]") {
   const Folder folder;
   const std::string file = write_case(folder);
-  const Result first = run(folder, {"hydro", file, "--json", "--headings", "180,90"});
+  const Result first = run_hydro(folder, {"hydro", file, "--json", "--headings", "180,90"});
   INFO(first.err);
   REQUIRE(first.code == 0);
   CHECK(first.err.find("panels on the hull") != std::string::npos);  // stated before the computation
@@ -171,8 +123,8 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
   for (const char* part : {"Added mass in heave", "Retardation function in sway", "Heave of barge", "reduced model"})
     CHECK(page.find(part) != std::string::npos);
 
-  CHECK(run(folder, {"hydro", file}).code == 2);  // the folder is taken
-  const Result second = run(folder, {"hydro", file, "--force", "--quiet"});
+  CHECK(run_hydro(folder, {"hydro", file}).code == 2);  // the folder is taken
+  const Result second = run_hydro(folder, {"hydro", file, "--force", "--quiet"});
   REQUIRE(second.code == 0);
   CHECK(second.err.empty());
   CHECK(second.out.find("taken from the cache") != std::string::npos);
@@ -181,7 +133,7 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
   CHECK(json::parse(content(run_folder + "/summary.json"))["sets"][0]["from_cache"].get<bool>());
 
   const Result refused =
-      run(folder, {"hydro", file, "--out", "refused", "--set", "panel_method.accept_failed_checks=\"\""});
+      run_hydro(folder, {"hydro", file, "--out", "refused", "--set", "panel_method.accept_failed_checks=\"\""});
   CHECK(refused.code == 2);
   CHECK(refused.err.find("the coefficients fail") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "refused/summary.json"));
@@ -190,19 +142,19 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
 TEST_CASE("simulate and check tell that the panel method runs", "[hydro]") {
   const Folder folder;
   const std::string file = write_case(folder);
-  const Result check = run(folder, {"check", file});
+  const Result check = run_hydro(folder, {"check", file});
   INFO(check.err);
   REQUIRE(check.code == 0);
   CHECK(check.err.find("the panel method computes") != std::string::npos);
   // The set is kept now.
-  CHECK(run(folder, {"check", file}).err.find("the panel method computes") == std::string::npos);
+  CHECK(run_hydro(folder, {"check", file}).err.find("the panel method computes") == std::string::npos);
 }
 
 TEST_CASE("warnings of the model reach the summary and the report", "[hydro]") {
   const Folder folder;
   const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.5\nbeyond = \"cut\"");
   const Result result =
-      run(folder, {"simulate", file, "--set", "sea.active=\"calm\"", "--set", "sea.states.calm.type=\"regular\"",
+      run_hydro(folder, {"simulate", file, "--set", "sea.active=\"calm\"", "--set", "sea.states.calm.type=\"regular\"",
                    "--set", "sea.states.calm.amplitude_m=0.1", "--set", "sea.states.calm.frequency_rad_per_s=2.45",
                    "--set", "bodies.barge.hull.panel_length_m=2.0"});
   INFO(result.err);
@@ -218,22 +170,22 @@ TEST_CASE("hydro refuses what it cannot do", "[hydro]") {
   const Folder folder;
   SECTION("no coefficients") {
     const std::string file = write_case(folder, "kind = \"constant\", added_mass_t = [1.0, 1.0, 1.0]");
-    const Result result = run(folder, {"hydro", file});
+    const Result result = run_hydro(folder, {"hydro", file});
     CHECK(result.code == 2);
     CHECK(result.err.find("there is nothing to do") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "runs/box-hydro/summary.json"));
   }
-  SECTION("no such file") { CHECK(run(folder, {"hydro", folder / "none.toml"}).code == 2); }
+  SECTION("no such file") { CHECK(run_hydro(folder, {"hydro", folder / "none.toml"}).code == 2); }
   SECTION("not afloat") {
     const std::string file = write_case(folder);
-    CHECK(run(folder, {"hydro", file, "--set", "bodies.barge.mass_t=9000"}).code == 2);
+    CHECK(run_hydro(folder, {"hydro", file, "--set", "bodies.barge.mass_t=9000"}).code == 2);
   }
 }
 
 TEST_CASE("Ctrl-C ends a panel computation with 130", "[hydro]") {
   const Folder folder;
   const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 1.0");
-  const pid_t child = start(folder, {"hydro", file});
+  const pid_t child = start(folder, {"hydro", file}, folder / "cache");
   // Not before it has begun: it says so first.
   for (int i = 0; i < 400 && content(folder / "stderr.txt").find("panels on the hull") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -247,7 +199,7 @@ TEST_CASE("Ctrl-C ends a panel computation with 130", "[hydro]") {
 TEST_CASE("the order of convergence is that of the changes", "[hydro]") {
   const Folder folder;
   const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.5");
-  const Result result = run(folder, {"hydro", file, "--converge", "--json"});
+  const Result result = run_hydro(folder, {"hydro", file, "--converge", "--json"});
   INFO(result.err);
   REQUIRE(result.code == 0);
   const json convergence = json::parse(result.out)["sets"][0]["convergence"];

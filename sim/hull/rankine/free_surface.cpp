@@ -28,30 +28,11 @@ std::vector<Segment> waterline(const HullPanels& hulls) {
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const Point d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * d).norm();
-}
-
 class Waterplane {
  public:
   explicit Waterplane(std::vector<Strip> strips) : strips_(std::move(strips)) {}
 
-  double distance(const Point& p) const {
-    double least = std::numeric_limits<double>::max();
-    for (const Strip& strip : strips_) {
-      bool inside = true;
-      for (int i = 0; i < 4; ++i) {
-        const Point &a = strip[i], &b = strip[(i + 1) % 4];
-        inside = inside && cross(b - a, p - a) >= 0.0;
-        least = std::min(least, distance_to_segment(p, a, b));
-      }
-      if (inside) return 0.0;
-    }
-    return least;
-  }
+  double distance(const Point& p) const { return distance_to(strips_, p); }
 
   /// Convex parts of the rectangle that are outside.
   std::vector<std::vector<Vector3>> outside(const Point& low, const Point& high) const {
@@ -240,6 +221,23 @@ std::vector<Strip> waterplane_strips(const HullPanels& hulls) {
     left = right;
   }
   return strips;
+}
+
+double distance_to(const std::vector<Strip>& strips, const Point& p) {
+  double least = std::numeric_limits<double>::max();
+  for (const Strip& strip : strips) {
+    bool inside = true;
+    for (int i = 0; i < 4; ++i) {
+      const Point &a = strip[i], &b = strip[(i + 1) % 4];
+      const Point along = b - a;
+      inside = inside && cross(along, p - a) >= 0.0;
+      const double length2 = along.squaredNorm();
+      const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+      least = std::min(least, (p - a - t * along).norm());
+    }
+    if (inside) return 0.0;
+  }
+  return least;
 }
 
 double waterplane_area(const HullPanels& hulls) {

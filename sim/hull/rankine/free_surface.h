@@ -44,6 +44,9 @@ SurfacePanels free_surface(const HullPanels& hulls, const FreeSurfaceGrid& grid)
 using Strip = std::array<Eigen::Vector2d, 4>;
 std::vector<Strip> waterplane_strips(const HullPanels& hulls);
 
+/// m, from a point of the water plane; 0 within a strip.
+double distance_to(const std::vector<Strip>& strips, const Eigen::Vector2d& p);
+
 /// m2, all images.
 double waterplane_area(const HullPanels& hulls);
 

@@ -52,36 +52,16 @@ HullPanels moved(HullPanels panels, const Placement& p, bool keep_y, int which) 
   return panels;
 }
 
-bool inside(const Strip& strip, const Eigen::Vector2d& p) {
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d a = strip[i], d = strip[(i + 1) % 4] - a, q = p - a;
-    if (d.x() * q.y() - d.y() * q.x() < -1e-9 * d.norm()) return false;
-  }
-  return true;
-}
-
-double distance(const Eigen::Vector2d& p, const Strip& strip) {
-  if (inside(strip, p)) return 0.0;
-  double least = std::numeric_limits<double>::max();
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d a = strip[i], d = strip[(i + 1) % 4] - a;
-    const double length2 = d.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-    least = std::min(least, (p - a - t * d).norm());
-  }
-  return least;
-}
-
 /// Least distance between the waterplanes of two hulls; for convex strips it is attained at a corner of one of them
 /// unless they cross.
 double gap_between(const std::vector<Strip>& a, const std::vector<Strip>& b) {
   double least = std::numeric_limits<double>::max();
-  for (const Strip& s : a)
-    for (const Strip& t : b)
+  // Corners and middles of edges: crossing rectangles may have no corner inside one another.
+  for (const auto& [from, to] : {std::pair{&a, &b}, std::pair{&b, &a}})
+    for (const Strip& s : *from)
       for (int i = 0; i < 4; ++i) {
-        // Corners and middles of edges: crossing rectangles may have no corner inside one another.
-        const Eigen::Vector2d ms = 0.5 * (s[i] + s[(i + 1) % 4]), mt = 0.5 * (t[i] + t[(i + 1) % 4]);
-        least = std::min({least, distance(s[i], t), distance(ms, t), distance(t[i], s), distance(mt, s)});
+        const Eigen::Vector2d middle = 0.5 * (s[i] + s[(i + 1) % 4]);
+        least = std::min({least, distance_to(*to, s[i]), distance_to(*to, middle)});
       }
   return least;
 }
@@ -155,11 +135,7 @@ void mark_gap(const Layout& layout, const HullPanels& panels, SurfacePanels& sur
   for (int j = 0; j < surface.size(); ++j) {
     // The two nearest hulls.
     std::vector<double> distances;
-    for (const auto& hull : strips) {
-      double least = std::numeric_limits<double>::max();
-      for (const Strip& strip : hull) least = std::min(least, distance(surface.point[j].head<2>(), strip));
-      distances.push_back(least);
-    }
+    for (const auto& hull : strips) distances.push_back(distance_to(hull, surface.point[j].head<2>()));
     std::sort(distances.begin(), distances.end());
     surface.in_gap[j] = distances[0] + distances[1] <= 1.5 * layout.gap;
   }

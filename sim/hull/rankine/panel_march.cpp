@@ -66,7 +66,6 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
     const ClassModes modes = modes_of(panels, layout, c.parity);
     if (modes.modes.empty()) continue;
     MarchClass m;
-    m.parity = c.parity;
     const MatrixX P = c.N.partialPivLu().inverse();
     fastest = std::max(fastest, highest_square(P, damping_, gravity_));
     const MatrixX weighted = modes.normal.transpose() * weight.asDiagonal();

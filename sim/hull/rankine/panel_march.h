@@ -24,12 +24,9 @@ namespace stillhook::rankine {
 
 /// The system of one symmetry class.
 struct MarchClass {
-  Parity parity;
   Eigen::MatrixXf P;   // F x F, 1/m
   MatrixX Q;           // F x modes
   MatrixX W;           // modes x F, N/m
-  MatrixX R;           // F x H, -P R of boundary_problem: vertical velocity by normal velocity of the panels
-  MatrixX local;       // H x H, psi by v
 };
 
 /// Constant matrices of the march; modes about Bo.
