@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "sim/hull/linear_froude_krylov.h"
-#include "sim/hull/rankine/frequency_response.h"
+#include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/hull_modes.h"
 #include "sim/specification.h"
 
@@ -14,79 +14,10 @@ namespace stillhook {
 namespace {
 
 using namespace rankine;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-// Longest wave over shortest in a part of the band is the square of this.
-constexpr double kBandRatio = 1.6;
-// Cells in the shortest wave of a part: away from the hull, and at it; panels of the hull in it.
-constexpr double kCellsPerWave = 10.0, kCellsAtHull = 20.0, kPanelsPerWave = 7.0;
-// Panels across a hull and cells at its waterline in its breadth, whatever the waves.
-constexpr double kPanelsAcross = 8.0, kCellsAcross = 12.0;
-constexpr double kGrowth = 0.25;
-// The beach in longest waves, with Beach::strength: reflects 1.5 % of the amplitude (one-dimensional estimate).
-constexpr double kBeachWidth = 1.2;
-// Cells across the gap between two hulls.
-constexpr double kCellsInGap = 5.0;
 // Added inertia below this share of the displaced mass times the square of half the length is noise of the panels.
 constexpr double kStill = 1e-3;
 // Phase of the wave at half the hull's length from one frequency of the excitation to the next, rad.
 constexpr double kPhaseStep = 0.5;
-
-double wave_length(double frequency, double gravity) { return kTwoPi * gravity / (frequency * frequency); }
-
-double automatic_panel(const Layout& layout) {
-  double breadth = std::numeric_limits<double>::max();
-  for (const Placement& p : layout.hulls) breadth = std::min({breadth, p.breadth, p.length});
-  return breadth / kPanelsAcross;
-}
-
-std::vector<double> frequencies_of(const PanelMethodOptions& options) {
-  if (!options.chosen.empty()) return options.chosen;
-  std::vector<double> frequencies(options.frequencies);
-  for (int i = 0; i < options.frequencies; ++i)
-    frequencies[i] = options.lowest * std::pow(options.highest / options.lowest, i / (options.frequencies - 1.0));
-  return frequencies;
-}
-
-std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options) {
-  const std::vector<double> frequencies = frequencies_of(options);
-  const int parts = std::max(
-      1, static_cast<int>(std::ceil(std::log(frequencies.back() / frequencies.front()) / std::log(kBandRatio))));
-  const double ratio = std::pow(frequencies.back() / frequencies.front(), 1.0 / parts);
-  std::vector<PanelBand> bands;
-  std::size_t first = 0;
-  for (int p = 1; p <= parts; ++p) {
-    const double end = p == parts ? 2.0 * frequencies.back() : frequencies.front() * std::pow(ratio, p);
-    std::size_t last = first;
-    while (last < frequencies.size() && frequencies[last] < end * (1.0 - 1e-9)) ++last;
-    if (last == first) continue;
-    PanelBand band;
-    band.frequencies.assign(frequencies.begin() + first, frequencies.begin() + last);
-    // The last one is the first of the next part, so that no frequency lies between two parts.
-    if (last < frequencies.size()) band.frequencies.push_back(frequencies[last]);
-    band.from = band.frequencies.front();
-    band.to = band.frequencies.back();
-    const double shortest = wave_length(band.to, options.gravity), longest = wave_length(band.from, options.gravity);
-    const double panel = options.panel_length > 0.0 ? options.panel_length : automatic_panel(layout);
-    band.panel_length = std::min(panel, shortest / kPanelsPerWave) / options.refinement;
-    band.far = shortest / kCellsPerWave / options.refinement;
-    band.near = std::min(shortest / kCellsAtHull, panel * kPanelsAcross / kCellsAcross) / options.refinement;
-    if (layout.gap > 0.0) band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
-    band.width = kBeachWidth * longest;
-    bands.push_back(band);
-    first = last;
-  }
-  return bands;
-}
-
-/// Headings around the circle that resolve exp(i k R cos b), R half the length of the longest hull, with a margin.
-int headings_for(const Layout& layout, const PanelMethodOptions& options) {
-  if (options.headings > 0) return options.headings;
-  double length = 0.0;
-  for (const Placement& p : layout.hulls) length = std::max({length, p.length, p.breadth});
-  const double highest = frequencies_of(options).back();
-  const double k = highest * highest / options.gravity;
-  return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));
-}
 
 /// Weights of the cubic through the four nodes around x (fewer nodes: of lower order), first node and weights.
 std::pair<int, std::vector<double>> cubic_weights(const std::vector<double>& nodes, double x) {
@@ -172,7 +103,7 @@ class Computation {
     for (const Placement& p : layout_.hulls) set_.length = std::max({set_.length, p.length, p.breadth});
     set_.excitation.modes = modes_;
     const int headings = headings_for(layout_, options_);
-    for (int h = 0; h < headings; ++h) set_.excitation.headings.push_back(kTwoPi * h / headings);
+    for (int h = 0; h < headings; ++h) set_.excitation.headings.push_back(2.0 * std::numbers::pi * h / headings);
     for (const PanelBand& band : report_.bands)
       for (std::size_t f = 0; f + 1 < band.frequencies.size(); ++f) {
         const double a = band.frequencies[f], b = band.frequencies[f + 1];
@@ -221,7 +152,7 @@ class Computation {
   /// A, B and X_D of one part of the band.
   void solve(PanelBand& band) {
     const HullPanels panels = panels_of(hulls_, layout_, band.panel_length);
-    SurfacePanels surface = free_surface(panels, {band.near, band.far, kGrowth, band.width});
+    SurfacePanels surface = free_surface(panels, grid_of(band));
     mark_gap(layout_, panels, surface);
     record_sizes(panels, surface, band);
     const VectorX weight = panel_weights(panels, options_.density);
@@ -234,7 +165,7 @@ class Computation {
       scatter<double>(inertia_of(c.local, modes, weight), modes.modes, A_inf);
       const std::vector<Matrix<Complex>> v(count, modes.normal.cast<Complex>());
       const std::vector<FrequencyResponse> responses =
-          frequency_responses(c, surface, beach_of(band), options_.gravity, band.frequencies, v);
+          frequency_responses(c, surface, beach_of(band, options_), options_.gravity, band.frequencies, v);
       watch_gap(surface, modes, responses);
       std::vector<Matrix<Complex>> weighted;
       for (std::size_t f = 0; f < count; ++f) {
@@ -257,13 +188,6 @@ class Computation {
       at.B = about_origin(at.B);
       set_.frequency.push_back(std::move(at));
     }
-  }
-
-  Beach beach_of(const PanelBand& band) const {
-    Beach beach;
-    beach.width = band.width;
-    beach.gap = options_.gap_damping;
-    return beach;
   }
 
   /// eta = i w phi/g, and a unit velocity is a motion of 1/w.
@@ -377,7 +301,7 @@ std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const 
   std::vector<PanelBand> bands = bands_of(layout, options);
   for (PanelBand& band : bands) {
     const HullPanels panels = panels_of(hulls, layout, band.panel_length);
-    const BoundarySizes sizes = sizes_of(panels, free_surface(panels, {band.near, band.far, kGrowth, band.width}));
+    const BoundarySizes sizes = sizes_of(panels, free_surface(panels, grid_of(band)));
     band.hull_panels = sizes.hull;
     band.surface_panels = sizes.surface;
     band.classes = sizes.classes;
@@ -402,11 +326,9 @@ Eigen::MatrixXcd diffraction_by_solution(const std::vector<PanelHull>& hulls, co
   one.chosen = {frequency};
   const PanelBand band = bands_of(layout, one).front();
   const HullPanels panels = panels_of(hulls, layout, band.panel_length);
-  SurfacePanels surface = free_surface(panels, {band.near, band.far, kGrowth, band.width});
+  SurfacePanels surface = free_surface(panels, grid_of(band));
   mark_gap(layout, panels, surface);
-  Beach beach;
-  beach.width = band.width;
-  beach.gap = options.gap_damping;
+  const Beach beach = beach_of(band, options);
   const VectorX weight = panel_weights(panels, options.density);
   const int count = static_cast<int>(headings.size());
   Matrix<Complex> X = Matrix<Complex>::Zero(6 * hulls.size(), count);

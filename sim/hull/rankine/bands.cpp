@@ -1,0 +1,91 @@
+#include "sim/hull/rankine/bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace stillhook::rankine {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+// Longest wave over shortest in a part of the band is the square of this.
+constexpr double kBandRatio = 1.6;
+// Cells in the shortest wave of a part: away from the hull, and at it; panels of the hull in it.
+constexpr double kCellsPerWave = 10.0, kCellsAtHull = 20.0, kPanelsPerWave = 7.0;
+// Panels across a hull and cells at its waterline in its breadth, whatever the waves.
+constexpr double kPanelsAcross = 8.0, kCellsAcross = 12.0;
+constexpr double kGrowth = 0.25;
+// The beach in longest waves, with Beach::strength: reflects 1.5 % of the amplitude (one-dimensional estimate).
+constexpr double kBeachWidth = 1.2;
+// Cells across the gap between two hulls.
+constexpr double kCellsInGap = 5.0;
+
+double wave_length(double frequency, double gravity) { return kTwoPi * gravity / (frequency * frequency); }
+
+double automatic_panel(const Layout& layout) {
+  double breadth = std::numeric_limits<double>::max();
+  for (const Placement& p : layout.hulls) breadth = std::min({breadth, p.breadth, p.length});
+  return breadth / kPanelsAcross;
+}
+
+std::vector<double> frequencies_of(const PanelMethodOptions& options) {
+  if (!options.chosen.empty()) return options.chosen;
+  std::vector<double> frequencies(options.frequencies);
+  for (int i = 0; i < options.frequencies; ++i)
+    frequencies[i] = options.lowest * std::pow(options.highest / options.lowest, i / (options.frequencies - 1.0));
+  return frequencies;
+}
+
+}  // namespace
+
+std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options) {
+  const std::vector<double> frequencies = frequencies_of(options);
+  const int parts = std::max(
+      1, static_cast<int>(std::ceil(std::log(frequencies.back() / frequencies.front()) / std::log(kBandRatio))));
+  const double ratio = std::pow(frequencies.back() / frequencies.front(), 1.0 / parts);
+  std::vector<PanelBand> bands;
+  std::size_t first = 0;
+  for (int p = 1; p <= parts; ++p) {
+    const double end = p == parts ? 2.0 * frequencies.back() : frequencies.front() * std::pow(ratio, p);
+    std::size_t last = first;
+    while (last < frequencies.size() && frequencies[last] < end * (1.0 - 1e-9)) ++last;
+    if (last == first) continue;
+    PanelBand band;
+    band.frequencies.assign(frequencies.begin() + first, frequencies.begin() + last);
+    // The last one is the first of the next part, so that no frequency lies between two parts.
+    if (last < frequencies.size()) band.frequencies.push_back(frequencies[last]);
+    band.from = band.frequencies.front();
+    band.to = band.frequencies.back();
+    const double shortest = wave_length(band.to, options.gravity), longest = wave_length(band.from, options.gravity);
+    const double panel = options.panel_length > 0.0 ? options.panel_length : automatic_panel(layout);
+    band.panel_length = std::min(panel, shortest / kPanelsPerWave) / options.refinement;
+    band.far = shortest / kCellsPerWave / options.refinement;
+    band.near = std::min(shortest / kCellsAtHull, panel * kPanelsAcross / kCellsAcross) / options.refinement;
+    if (layout.gap > 0.0) band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
+    band.width = kBeachWidth * longest;
+    bands.push_back(band);
+    first = last;
+  }
+  return bands;
+}
+
+int headings_for(const Layout& layout, const PanelMethodOptions& options) {
+  if (options.headings > 0) return options.headings;
+  double length = 0.0;
+  for (const Placement& p : layout.hulls) length = std::max({length, p.length, p.breadth});
+  const double highest = frequencies_of(options).back();
+  const double k = highest * highest / options.gravity;
+  return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));
+}
+
+FreeSurfaceGrid grid_of(const PanelBand& band) { return {band.near, band.far, kGrowth, band.width}; }
+
+Beach beach_of(const PanelBand& band, const PanelMethodOptions& options) {
+  Beach beach;
+  beach.width = band.width;
+  beach.gap = options.gap_damping;
+  return beach;
+}
+
+}  // namespace stillhook::rankine

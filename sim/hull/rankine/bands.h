@@ -1,0 +1,22 @@
+// How the band of frequencies is divided, and the water surface that each part gets.
+#pragma once
+
+#include <vector>
+
+#include "sim/hull/rankine/frequency_response.h"
+#include "sim/hull/rankine/layout.h"
+
+namespace stillhook::rankine {
+
+/// The parts of the band, ascending; the last frequency of each is the first of the next. Panels and memory are not
+/// counted yet.
+std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options);
+
+FreeSurfaceGrid grid_of(const PanelBand& band);
+Beach beach_of(const PanelBand& band, const PanelMethodOptions& options);
+
+/// Headings around the circle that resolve exp(i k R cos b), R half the length of the longest hull, with a margin; or
+/// what the options say.
+int headings_for(const Layout& layout, const PanelMethodOptions& options);
+
+}  // namespace stillhook::rankine
