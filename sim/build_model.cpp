@@ -264,32 +264,12 @@ class ModelBuilder {
     }
     model_.coefficients_.resize(bodies.size());
     std::vector<HydrodynamicsGroup> groups;
-    for (const std::vector<std::size_t>& hulls : coupled_groups()) groups.push_back(prepare_group(hulls, meshes));
+    for (const std::vector<std::size_t>& hulls : coupled_hulls(bodies)) groups.push_back(prepare_group(hulls, meshes));
     // The elements only now: the shares of critical damping were found with the system as it was laid out.
     for (const HydrodynamicsGroup& group : groups)
       if (auto element = element_of(group)) system().elements.push_back(std::move(element));
     system().finish();
     system().select_independent_rows(state());
-  }
-
-  /// Every body once: alone, or with the one it is coupled with.
-  std::vector<std::vector<std::size_t>> coupled_groups() const {
-    const std::vector<BodySpec>& bodies = spec().bodies;
-    std::vector<std::vector<std::size_t>> groups;
-    std::vector<bool> taken(bodies.size(), false);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const std::string& other = bodies[i].hydrodynamics.coupled_with;
-      if (other.empty()) continue;
-      const std::size_t k = static_cast<std::size_t>(model_.body_index(other));
-      if (taken[i] || taken[k] || i == k)
-        throw SpecificationError("bodies." + bodies[i].name + ".hydrodynamics", "coupled_with",
-                                 "a hull can be coupled with one other hull, and '" + other + "' is taken");
-      taken[i] = taken[k] = true;
-      groups.push_back({i, k});
-    }
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (!taken[i]) groups.push_back({i});
-    return groups;
   }
 
   HullAfloat hull_afloat(std::size_t body, const Mesh& mesh) const {
@@ -302,23 +282,17 @@ class ModelBuilder {
     const Vector3 middle = 0.5 * (size.low + size.high);
     hull.waterline = -(Bo.z() + b.R_WB(2, 0) * middle.x() + b.R_WB(2, 1) * middle.y()) / b.R_WB(2, 2);
     // A run that starts from given poses may start away from where the hull floats, as a decay test does.
-    if (!spec().solver.static_start) hull.waterline = floating_waterline(static_cast<int>(body), mesh, size);
+    if (!spec().solver.static_start) hull.waterline = floating_waterline(static_cast<int>(body), mesh);
     return hull;
   }
 
   /// Where the hull, upright, displaces the mass of everything jointed to it; in B, m.
-  double floating_waterline(int hull, const Mesh& mesh, const MeshProperties& size) const {
+  double floating_waterline(int hull, const Mesh& mesh) const {
     double mass = 0.0;
     const std::vector<bool> rigid = jointed_to(model_.system_, hull);
     for (std::size_t i = 0; i < rigid.size(); ++i)
       if (rigid[i]) mass += spec().bodies[i].mass;
-    double low = size.low.z(), high = size.high.z();
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (low + high);
-      const double volume = immersion_of(mesh, {Matrix3::Identity(), {0.0, 0.0, -middle}}).volume;
-      (spec().sea.density * volume < mass ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return floating_height(mesh, mass / spec().sea.density);
   }
 
   struct HydrodynamicsGroup {

@@ -234,6 +234,26 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
                                                 std::move(radiation), std::move(diffraction));
 }
 
+std::vector<std::vector<std::size_t>> coupled_hulls(const std::vector<BodySpec>& bodies) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<bool> taken(bodies.size(), false);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string& other = bodies[i].hydrodynamics.coupled_with;
+    if (other.empty()) continue;
+    const auto partner =
+        std::find_if(bodies.begin(), bodies.end(), [&](const BodySpec& body) { return body.name == other; });
+    const std::size_t k = static_cast<std::size_t>(partner - bodies.begin());
+    if (partner == bodies.end() || i == k || taken[i] || taken[k])
+      throw SpecificationError(entry_of(bodies[i]), "coupled_with",
+                               "a hull can be coupled with one other hull, and '" + other + "' is none or taken");
+    taken[i] = taken[k] = true;
+    groups.push_back({i, k});
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!taken[i]) groups.push_back({i});
+  return groups;
+}
+
 Matrix6 added_mass_at(const HydrodynamicCoefficients& set, int hull, const Vector3& c, double frequency) {
   const auto block = [&](const MatrixX& M) -> Matrix6 { return about_point(M.block<6, 6>(6 * hull, 6 * hull), c); };
   if (std::isinf(frequency) || (set.retardation.empty() && set.frequency.empty())) return block(set.A_inf);

@@ -100,6 +100,10 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
                                                   const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                   const HydrodynamicsOptions& options = {});
 
+/// Every body once, by index: alone, or with the one it is coupled with. Throws SpecificationError
+/// ("bodies.<name>.hydrodynamics") for a partner that does not exist or is taken.
+std::vector<std::vector<std::size_t>> coupled_hulls(const std::vector<BodySpec>& bodies);
+
 /// Added mass of one hull of a set about the point c (m, in H from its reference point) at a frequency (rad/s; infinity
 /// for A_inf), axes of H: from the retardation functions, else from the table.
 Matrix6 added_mass_at(const HydrodynamicCoefficients& set, int hull, const Vector3& c, double frequency);

@@ -83,6 +83,16 @@ HydrostaticSummary immersion_of(const Mesh& mesh, const Pose& X_WB) {
   return out;
 }
 
+double floating_height(const Mesh& mesh, double volume) {
+  const MeshProperties size = properties_of(mesh);
+  double low = size.low.z(), high = size.high.z();
+  for (int k = 0; k < 60; ++k) {  // halvings: to rounding
+    const double middle = 0.5 * (low + high);
+    (immersion_of(mesh, {Matrix3::Identity(), {0.0, 0.0, -middle}}).volume < volume ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 MetacentricHeights metacentric_heights(const HydrostaticSummary& hull, double mass, const Vector3& p_WG,
                                        double density) {
   const double centre = density * hull.volume * hull.centre_of_buoyancy.z();

@@ -29,6 +29,10 @@ struct HydrostaticSummary {
 /// Clips the mesh (in B) at z = 0. A hull that is dry has volume 0 and its centres at the origin of B.
 HydrostaticSummary immersion_of(const Mesh& mesh, const Pose& X_WB);
 
+/// Height above Bo (m) of the still water in which the upright mesh displaces `volume` (m3): its lowest or highest point
+/// where it cannot.
+double floating_height(const Mesh& mesh, double volume);
+
 struct MetacentricHeights {
   double transverse = 0.0, longitudinal = 0.0;  // m
 };

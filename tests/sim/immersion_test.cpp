@@ -150,3 +150,14 @@ TEST_CASE("a hull in the air and a hull under water") {
 
 }  // namespace
 }  // namespace stillhook
+
+namespace stillhook {
+
+TEST_CASE("where a hull floats for a displaced volume", "[immersion]") {
+  // 20 x 10 x 6 m, bottom 1 m below Bo: 400 m3 is a draft of 2 m.
+  const Mesh box = box_mesh(Vector3(20.0, 10.0, 6.0), Vector3(3.0, -2.0, 2.0), 2.0);
+  CHECK(floating_height(box, 400.0) == Approx(-1.0 + 2.0).epsilon(1e-12));
+  CHECK(floating_height(box, 1e6) == Approx(5.0).epsilon(1e-12));  // cannot: its top
+}
+
+}  // namespace stillhook
