@@ -84,6 +84,9 @@ struct HydrodynamicsSpec {
   double database_length = 1.0;             // m, WAMIT's ULEN (database)
   bool port_starboard = false;              // headings 0..180 deg of the database are mirrored (database)
   double panel_length = 0.0;                // m, longest panel of the hull; 0 = automatic (panels)
+  double added_mass_factor = 1.0;           // 1, > 0, on A_inf (panels, table, database)
+  double radiation_factor = 1.0;            // 1, >= 0, on the memory of the radiation, K(t) (panels, table, database)
+  double diffraction_factor = 1.0;          // 1, on the diffraction force
   std::string coupled_with;                 // body whose hull feels this one; empty = none (panels)
   std::string coupled_until;                // phase with whose start the coupling ends; empty = never (panels)
   Vector6 linear_damping = Vector6::Zero();     // viscous, N s/m and N m s, per degree of freedom about the cog
@@ -240,9 +243,16 @@ struct CoordinateSpec {
 
 struct ProfileSpec {
   enum class Shape { trapezoid, s_curve, knots };
+  // Input shaping (Singer & Seering 1990): the profile convolved with impulses that leave no residual swing of a
+  // pendulum; zvd bears twice the error of its period.
+  enum class Shaper { none, zv, zvd };
   Shape shape = Shape::s_curve;
   double ramp = 10.0;                      // s, from rest to full speed and back
   std::vector<double> knots;               // relative speeds at equal times, between the two zeros (knots only)
+  Shaper shaper = Shaper::none;
+  double shaper_period = 0.0;              // s; 0 = of the pendulum on the hoist falls as long as they are at the middle
+                                           // of the move, 2 pi sqrt(l/g)
+  double shaper_damping = 0.0;             // 1, damping ratio of that swing
 };
 
 struct MoveSpec {

@@ -86,6 +86,12 @@ class JacobianSum {
   MatrixX K_, C_;
 };
 
+/// Changes of the bodies at one instant in several directions at once, a column each.
+struct BodyChange {
+  MatrixX xi;  // 6 rows a body: (dp in W, dtheta in B)
+  MatrixX u;   // 6 rows a body: change of (v_WC, w_B)
+};
+
 /// A recorded quantity.
 struct Channel {
   std::string name;  // "<element>.<quantity>", e.g. "hoist_port.tension"
@@ -110,6 +116,10 @@ class ForceElement {
   const std::string& name() const { return name_; }
   virtual int state_size() const { return 0; }
   virtual int scratch_size() const { return 0; }
+  /// The drive whose position and rate the forces depend on, -1 if none.
+  virtual int drive() const { return -1; }
+  /// True if the other element gives the same forces in every state: same kind, same parameters. False is always safe.
+  virtual bool same_as(const ForceElement&) const { return false; }
 
   /// Sets the internal state to its steady value at this instant (bodies at rest).
   virtual void start(const Instant&, Memory) const {}
@@ -123,6 +133,24 @@ class ForceElement {
   virtual void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const = 0;
   /// Advances the internal state to `now`.
   virtual void end_step(const Instant& /*now*/, double /*h*/, Memory) const {}
+
+  /// True if the forces of a step depend on its beginning: on the state or on the instant before.
+  virtual bool has_history() const { return state_size() > 0; }
+  /// Adds to dQ (6 rows a body, a column a direction) what the force at `now` changes when the beginning of the step
+  /// does: the bodies by `from`, the state by `state` (rows as in m.state). m.state belongs to `before`, m.scratch is
+  /// what begin_step left. Returns false if the element does not offer it; the caller then takes differences.
+  virtual bool add_history_tangent(const Instant& /*before*/, const Instant& /*now*/, double /*h*/, Memory,
+                                   const BodyChange& /*from*/, const Eigen::Ref<const MatrixX>& /*state*/,
+                                   Eigen::Ref<MatrixX> /*dQ*/) const {
+    return false;
+  }
+  /// Replaces the change of the state at `before` by that at `now`, with the bodies changed by `from` and `to`. Memory
+  /// and return value as above.
+  virtual bool advance_state_tangent(const Instant& /*before*/, const Instant& /*now*/, double /*h*/, Memory,
+                                     const BodyChange& /*from*/, const BodyChange& /*to*/,
+                                     Eigen::Ref<MatrixX> /*state*/) const {
+    return false;
+  }
 
   /// Added mass (kg, kg m, kg m^2) in the coordinates above, constant within a phase: M_total = M_rigid + this. Zero by
   /// default.
