@@ -14,6 +14,9 @@ struct RunOptions {
   std::function<bool(double t, double t_end)> progress;
   /// Keep samples (values) at specification.solver.output_interval; extremes and contacts are kept always.
   bool record = true;
+  /// Where the run begins instead of the model's initial state, at its time; must outlive the run.
+  const SystemState* from = nullptr;
+  double until = 0.0;  // s, the run ends there at the latest; 0 = as the specification says
 };
 
 /// Never throws for numerical trouble: a run that diverges ends with RunStatus::diverged and says where. The same

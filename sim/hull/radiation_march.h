@@ -17,6 +17,10 @@ class RadiationMarch final : public Radiation {
  public:
   explicit RadiationMarch(std::shared_ptr<const rankine::PanelMarch> march);
 
+  bool same_as(const Radiation& other) const override {
+    const auto* o = dynamic_cast<const RadiationMarch*>(&other);
+    return o && o->march_ == march_;
+  }
   int state_size() const override;
   void start(std::span<const double> V, Memory m) const override;
   void begin_step(double h, Memory m, std::span<double> past, std::span<double> D) const override;
