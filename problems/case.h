@@ -37,11 +37,12 @@ struct ScenarioSpec {
 };
 
 struct PlanSpec {
-  enum class Aggregate { mean, worst };
+  enum class Aggregate { mean, worst, tail };
   std::vector<ObjectiveTerm> objective;
   std::vector<VariableSpec> variables;
   std::vector<ScenarioSpec> scenarios;
   Aggregate aggregate = Aggregate::mean;  // of the objective over scenarios; limits hold in every scenario
+  double tail_share = 0.2;               // tail: mean of this worst share of the scenarios, in (0, 1]
   std::string global_algorithm = "isres";  // NLopt names, lower case, as in the docs
   std::string local_algorithm = "cobyla";
   double global_share = 0.5;             // of the evaluations

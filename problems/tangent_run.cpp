@@ -19,15 +19,29 @@ struct Lift {
   std::shared_ptr<const Operation> operation;
 };
 
-Lift lift_of(const Case& c) {
-  const auto model = std::make_shared<const Model>(build_model(c.specification));
+using Condition = std::function<Specification(const Specification&)>;
+
+Lift lift_of(const Case& c, const Condition& condition) {
+  const auto model =
+      std::make_shared<const Model>(build_model(condition ? condition(c.specification) : c.specification));
   return {model, std::make_shared<const Operation>(build_operation(*model))};
 }
 
-LiftTwin twin_of(const Case& c, const std::string& key, double range) {
+// A key of the operation's timing leaves the model and every pose as they are.
+bool is_timing(const std::string& key, const Case& base, const Case& changed) {
+  return key.starts_with("operation.phases.") &&
+         same_poses(base.specification.operation, changed.specification.operation);
+}
+
+LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double range, const Condition& condition) {
   const double x = key_value(c, key);
   const double half = kHalfWidth * std::max(std::abs(x), kSmallestShare * range);
-  const auto at = [&](double value) { return lift_of(with_values(c, {{key, value}})); };
+  const auto at = [&](double value) {
+    const Case changed = with_values(c, {{key, value}});
+    if (!is_timing(key, c, changed)) return lift_of(changed, condition);
+    return Lift{base.model, std::make_shared<const Operation>(
+                                retimed_operation(*base.model, changed.specification.operation, *base.operation))};
+  };
   const auto try_at = [&](double value) -> std::optional<Lift> {
     try {
       return at(value);
@@ -53,7 +67,7 @@ LiftTwin twin_of(const Case& c, const std::string& key, double range) {
 }  // namespace
 
 TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const RunOptions& options) {
-  const Lift base = lift_of(c);
+  const Lift base = lift_of(c, request.condition);
   const int keys = static_cast<int>(request.keys.size());
   std::vector<LiftTwin> twins(request.keys.size());
   std::vector<std::exception_ptr> errors(request.keys.size());
@@ -63,7 +77,7 @@ TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const
     try {
       const double range = k < request.ranges.size() ? request.ranges[k]
                                                      : std::max(1.0, std::abs(key_value(c, request.keys[k])));
-      twins[k] = twin_of(c, request.keys[k], range);
+      twins[k] = twin_of(c, base, request.keys[k], range, request.condition);
     } catch (...) {
       errors[k] = std::current_exception();
     }

@@ -18,6 +18,8 @@ struct TangentRequest {
   std::vector<std::string> keys;      // as in [plan.variables]; "*" moves several entries together
   std::vector<double> ranges;         // how far each key may move, in its unit; empty = max(|value|, 1)
   std::vector<std::string> channels;  // names of trajectory.h
+  /// Changes a specification that was read (a scenario's sea), for the run and its twins alike; may be empty.
+  std::function<Specification(const Specification&)> condition;
   /// Where the run begins instead of the model's initial state: its time is that of the run.
   std::optional<SystemState> from;
   /// Derivatives with respect to the initial state as well, as further columns after those of the keys, in the order

@@ -43,7 +43,11 @@ HhtTangent::Twin HhtTangent::compare(const MultibodySystem& base, const SystemTw
   }
   for (std::size_t e = 0; e < base.elements.size(); ++e) {
     const ForceElement& own = *base.elements[e];
-    if (!own.same_as(*of.system[0]->elements[e]) || !own.same_as(*of.system[1]->elements[e]))
+    const auto same = [&](int side) {
+      const ForceElement& other = *of.system[side]->elements[e];
+      return &own == &other || own.same_as(other);
+    };
+    if (!same(0) || !same(1))
       twin.elements.push_back(static_cast<int>(e));
   }
   if (!twin.elements.empty())
@@ -61,6 +65,7 @@ HhtTangent::HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins)
   now_.element_state = state_explicit_ = zero(system_.element_state_size());
   from_.xi = from_.u = E_ = a_start_ = zero(n);
   rhs_ = y_ = zero(n + m);
+  change_ = VectorX::Zero(system_.element_state_size());
   scratch_ = system_.make_workspace().element_scratch;
 }
 

@@ -85,14 +85,14 @@ class HhtTangent {
   void solve(const SystemState& middle, double h);
 
   void add_history(double h);
-  void history_by_differences(int element, double h);
+  void history_by_differences(double h);
   void add_explicit(double h, const TwinDrives& before, const TwinDrives& now);
   void add_element(int element, int j, double h, const SideDrives& before, const SideDrives& now);
   void add_bodies(int j);
   void advance_states(double h);
-  void state_by_differences(int element, double h);
-  Memory begin_displaced(int element, int j, double by, double h);
-  double element_step(int element, int j, bool with_now) const;
+  void states_by_differences(double h);
+  void begin_displaced(int j, double by, double h);
+  double differences_by(int j, const BodyChange& bodies) const;
 
   HhtStepper& stepper_;
   const MultibodySystem& system_;
@@ -111,6 +111,8 @@ class HhtTangent {
   SystemState before_, middle_, displaced_;
   std::vector<BodyKinematics> to_;
   std::vector<double> scratch_;
+  std::vector<int> differenced_;  // elements that do not offer their own tangents
+  VectorX change_;
   ForceSum forces_;
 };
 

@@ -15,7 +15,9 @@ void displace_bodies(const BodyChange& change, int j, double by, std::vector<Bod
     const int r = 6 * static_cast<int>(i);
     BodyKinematics& b = bodies[i];
     b.p_WC += by * change.xi.col(j).segment<3>(r);
-    b.R_WB = b.R_WB * exp_rotation(by * change.xi.col(j).segment<3>(r + 3));
+    // exp([phi]x) to the second order: by is small, and this is called very often.
+    const Matrix3 turn = cross_matrix(by * change.xi.col(j).segment<3>(r + 3));
+    b.R_WB += b.R_WB * (turn + 0.5 * turn * turn);
     b.v_WC += by * change.u.col(j).segment<3>(r);
     b.w_B += by * change.u.col(j).segment<3>(r + 3);
   }
@@ -23,46 +25,50 @@ void displace_bodies(const BodyChange& change, int j, double by, std::vector<Bod
 
 void HhtTangent::add_history(double h) {
   const Instant before = before_.instant(), now = middle_.instant();
+  differenced_.clear();
   for (std::size_t k = 0; k < system_.elements.size(); ++k) {
     const ForceElement& element = *system_.elements[k];
     if (!element.has_history()) continue;
     const int e = static_cast<int>(k);
     const Memory m = system_.memory_in(e, middle_.element_state, stepper_.work_.element_scratch);
     const auto rows = now_.element_state.middleRows(system_.state_offset(e), element.state_size());
-    if (!element.add_history_tangent(before, now, h, m, from_, rows, E_)) history_by_differences(e, h);
+    if (!element.add_history_tangent(before, now, h, m, from_, rows, E_)) differenced_.push_back(e);
+  }
+  if (!differenced_.empty()) history_by_differences(h);
+}
+
+// Moves the beginning of the step along direction j by `by` and lets the elements begin it there.
+void HhtTangent::begin_displaced(int j, double by, double h) {
+  displaced_ = before_;
+  displace_bodies(from_, j, by, displaced_.body);
+  for (const int e : differenced_) {
+    const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
+    for (int k = first; k < first + count; ++k) displaced_.element_state[k] += by * now_.element_state(k, j);
+    system_.elements[e]->begin_step(displaced_.instant(), h,
+                                    system_.memory_in(e, displaced_.element_state, scratch_));
   }
 }
 
-// Displaces the beginning of the step along direction j by +-`by` and lets the element begin the step there.
-Memory HhtTangent::begin_displaced(int e, int j, double by, double h) {
-  const ForceElement& element = *system_.elements[e];
-  displaced_ = before_;
-  displace_bodies(from_, j, by, displaced_.body);
-  const int first = system_.state_offset(e);
-  for (int k = first; k < first + element.state_size(); ++k) displaced_.element_state[k] += by * now_.element_state(k, j);
-  const Memory m = system_.memory_in(e, displaced_.element_state, scratch_);
-  element.begin_step(displaced_.instant(), h, m);
-  return m;
-}
-
-double HhtTangent::element_step(int e, int j, bool with_now) const {
-  double size = std::max(from_.xi.col(j).cwiseAbs().maxCoeff(), from_.u.col(j).cwiseAbs().maxCoeff());
-  if (with_now)
-    size = std::max({size, now_.body.xi.col(j).cwiseAbs().maxCoeff(), now_.body.u.col(j).cwiseAbs().maxCoeff()});
-  const int states = system_.elements[e]->state_size();
-  if (states > 0)
-    size = std::max(size, now_.element_state.col(j).segment(system_.state_offset(e), states).cwiseAbs().maxCoeff());
+// How far the differences may go along direction j.
+double HhtTangent::differences_by(int j, const BodyChange& bodies) const {
+  double size = std::max(bodies.xi.col(j).cwiseAbs().maxCoeff(), bodies.u.col(j).cwiseAbs().maxCoeff());
+  for (const int e : differenced_)
+    if (const int states = system_.elements[e]->state_size(); states > 0)
+      size =
+          std::max(size, now_.element_state.col(j).segment(system_.state_offset(e), states).cwiseAbs().maxCoeff());
   return size > 0.0 && std::isfinite(size) ? kSmall / size : 0.0;
 }
 
-void HhtTangent::history_by_differences(int e, double h) {
+void HhtTangent::history_by_differences(double h) {
   for (int j = 0; j < directions(); ++j) {
-    const double by = element_step(e, j, false);
+    const double by = differences_by(j, from_);
     if (by == 0.0) continue;
     for (const double sign : {-1.0, 1.0}) {
-      const Memory m = begin_displaced(e, j, sign * by, h);
+      begin_displaced(j, sign * by, h);
       forces_.clear();
-      system_.elements[e]->add_forces(middle_.instant(), h, m, forces_);
+      for (const int e : differenced_)
+        system_.elements[e]->add_forces(middle_.instant(), h,
+                                        system_.memory_in(e, displaced_.element_state, scratch_), forces_);
       E_.col(j) += (sign / (2.0 * by)) * forces_.value();
     }
   }
@@ -127,32 +133,41 @@ void HhtTangent::add_bodies(int j) {
 
 void HhtTangent::advance_states(double h) {
   const Instant before = before_.instant(), now = middle_.instant();
+  differenced_.clear();
   for (std::size_t k = 0; k < system_.elements.size(); ++k) {
     const ForceElement& element = *system_.elements[k];
     if (element.state_size() == 0) continue;
     const int e = static_cast<int>(k);
     const Memory m = system_.memory_in(e, middle_.element_state, stepper_.work_.element_scratch);
     auto rows = now_.element_state.middleRows(system_.state_offset(e), element.state_size());
-    if (!element.advance_state_tangent(before, now, h, m, from_, now_.body, rows)) state_by_differences(e, h);
+    if (!element.advance_state_tangent(before, now, h, m, from_, now_.body, rows)) differenced_.push_back(e);
   }
+  if (!differenced_.empty()) states_by_differences(h);
   now_.element_state += state_explicit_;
 }
 
-void HhtTangent::state_by_differences(int e, double h) {
-  const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
-  VectorX change(count);
+void HhtTangent::states_by_differences(double h) {
   for (int j = 0; j < directions(); ++j) {
-    const double by = element_step(e, j, true);
-    change.setZero();
-    if (by > 0.0)
-      for (const double sign : {-1.0, 1.0}) {
-        const Memory m = begin_displaced(e, j, sign * by, h);
-        to_ = middle_.body;
-        displace_bodies(now_.body, j, sign * by, to_);
+    double by = differences_by(j, from_);
+    if (const double now = differences_by(j, now_.body); by == 0.0 || (now > 0.0 && now < by)) by = now;
+    if (by == 0.0) continue;
+    change_.setZero();
+    for (const double sign : {-1.0, 1.0}) {
+      begin_displaced(j, sign * by, h);
+      to_ = middle_.body;
+      displace_bodies(now_.body, j, sign * by, to_);
+      for (const int e : differenced_) {
+        const Memory m = system_.memory_in(e, displaced_.element_state, scratch_);
         system_.elements[e]->end_step({middle_.t, to_, middle_.drive, middle_.phase}, h, m);
-        for (int k = 0; k < count; ++k) change[k] += sign / (2.0 * by) * displaced_.element_state[first + k];
+        const int first = system_.state_offset(e);
+        for (std::size_t k = 0; k < m.state.size(); ++k)
+          change_[first + static_cast<int>(k)] += sign / (2.0 * by) * m.state[k];
       }
-    now_.element_state.col(j).segment(first, count) = change;
+    }
+    for (const int e : differenced_) {
+      const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
+      now_.element_state.col(j).segment(first, count) = change_.segment(first, count);
+    }
   }
 }
 
