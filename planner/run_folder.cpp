@@ -14,6 +14,7 @@ constexpr std::array kFiles = {"case.toml",
                                "history.nc",
                                "report.html",
                                "plan.toml",
+                               "fitted.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
                                "evaluations.sqlite-shm"};

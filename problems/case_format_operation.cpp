@@ -357,6 +357,7 @@ const Table& case_table() {
     t.map("limits", &S::limits, &LimitSpec::metric, &limit_table, "Limits, by metric.").absent("none");
     t.table("solver", spec(&Specification::solver), &solver_table, "Time stepping.").absent("defaults");
     t.table("plan", &S::plan, &plan_table, "The search.").absent("no search");
+    t.table("fit", &S::fit, &fit_table, "What is estimated from measured runs.").absent("nothing");
     return t.build();
   }();
   return table;

@@ -38,10 +38,15 @@ struct HydroArguments {
   std::vector<double> headings;  // deg, of the response amplitude operators; empty = usual ones
 };
 
+struct FitArguments {
+  std::vector<std::string> measured;  // FILE or RECORD=FILE
+};
+
 int run_check(const CommonOptions& options);
 int run_hydro(const CommonOptions& options, const HydroArguments& arguments);
 int run_simulate(const CommonOptions& options);
 int run_plan(const CommonOptions& options, const PlanArguments& arguments);
+int run_fit(const CommonOptions& options, const FitArguments& arguments);
 int run_report(const CommonOptions& options);
 int run_schema(bool reference);
 

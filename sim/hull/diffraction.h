@@ -53,6 +53,9 @@ class Diffraction {
   Diffraction(std::shared_ptr<const WaveField> waves, const DiffractionTable& table, std::span<const double> headings,
               double negligible_energy, const std::string& entry);
 
+  /// Multiplies the force on each hull, in order.
+  void scale(std::span<const double> factors);
+
   bool operator==(const Diffraction& other) const { return *waves_ == *other.waves_ && hulls_ == other.hulls_; }
   bool calm() const { return waves_->calm(); }
   /// Of the sea's energy, 1.

@@ -107,6 +107,10 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
                                                   const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                   const HydrodynamicsOptions& options = {});
 
+/// Square roots S of a factor of each hull, a number a mode: S M S scales what a hull does to itself by its factor and
+/// what two do to each other by the geometric mean, and keeps M symmetric and passive.
+VectorX mode_factors(const std::vector<const BodySpec*>& bodies, double HydrodynamicsSpec::* factor);
+
 /// Every body once, by index: alone, or with the one it is coupled with. Throws SpecificationError
 /// ("bodies.<name>.hydrodynamics") for a partner that does not exist or is taken.
 std::vector<std::vector<std::size_t>> coupled_hulls(const std::vector<BodySpec>& bodies);
