@@ -5,7 +5,7 @@
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
-#include "problems/search/nlopt_search.h"
+#include "problems/search/solvers.h"
 #include "results/metrics.h"
 
 namespace stillhook {
@@ -57,7 +57,7 @@ class PlanCheck {
     if (name == "none") return;
     const bool constrained = std::any_of(case_.limits.begin(), case_.limits.end(),
                                          [](const LimitSpec& limit) { return limit.hard && (limit.max || limit.min); });
-    if (const std::string fault = algorithm_fault(name, global, constrained); !fault.empty())
+    if (const std::string fault = algorithm_fault(name, global, {.inequalities = constrained}); !fault.empty())
       report("plan", key, fault);
   }
 
