@@ -30,14 +30,10 @@ void ReportPage::section(const std::string& id, const std::string& title, const 
 std::string ReportPage::html(const std::string& title, const std::string& style, const std::string& head,
                              const std::string& foot) const {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:; base-uri 'none'; form-action 'none'\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><meta name=\"generator\" "
-      "content=\"stillhook {0}\"><link rel=\"icon\" href=\"data:,\"><title>{1}</title><style>{2}{3}</style></head>\n"
-      "<body><header><h1>{1}</h1>{4}</header>\n<main><nav aria-label=\"Contents\">{5}</nav>{6}</main>\n"
-      "<footer>stillhook {0} · {7}</footer></body></html>\n",
-      kVersion, escape_html(title), report_style(), style, head, nav_, body_, escape_html(foot));
+      "{}<body><header><h1>{}</h1>{}</header>\n<main><nav aria-label=\"Contents\">{}</nav>{}</main>\n"
+      "<footer>stillhook {} · {}</footer></body></html>\n",
+      page_head(escape_html(title), kVersion, false, style), escape_html(title), head, nav_, body_, kVersion,
+      escape_html(foot));
 }
 
 std::string warnings_html(const std::vector<std::string>& warnings) {
