@@ -54,12 +54,56 @@ PlanResult::Point point_of(const Evaluation& e) {
   return {e.usable ? e.objective : std::numeric_limits<double>::quiet_NaN(), e.usable && e.violation() <= 0.0};
 }
 
-PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem, EvaluationStore& store,
-                        const PlanOptions& options) {
+/// The stage that follows exact gradients of the smooth problem. Returns the points worth starting from: the best of its
+/// evaluations by the metrics as they are, which each of them knows as well.
+std::vector<Eigen::VectorXd> follow_gradients(const Evaluator& evaluator, SearchProblem smooth, EvaluationStore& store,
+                                              const PlanOptions& options, SearchReport& report) {
+  const PlanSpec& plan = evaluator.base().plan;
+  smooth = with_store(smooth, store, "gradient");
+  std::mutex mutex;
+  Evaluation best;
+  Eigen::VectorXd best_x;
+  const auto with_gradient = [&, evaluate = smooth.evaluate_with_gradient](const Eigen::VectorXd& x) {
+    const Evaluation e = evaluate(x);
+    if (!e.interrupted) {
+      const Evaluation as_is = evaluator.aggregated(evaluator.outcomes(e));
+      const std::lock_guard lock(mutex);
+      if (best_x.size() == 0 || better(as_is, best, 0.0)) {
+        best = as_is;
+        best_x = x;
+      }
+    }
+    return e;
+  };
+  smooth.evaluate = smooth.evaluate_with_gradient = with_gradient;
+  SolveOptions with;
+  with.solver = plan.gradient_algorithm;
+  with.evaluations = plan.gradient_evaluations;
+  with.seed = static_cast<unsigned long>(plan.seed);
+  with.x_tolerance = 1e-4;
+  with.should_stop = [&] { return options.stop && options.stop->load(); };
+  with.progress = options.progress;
+  if (const std::string fault = solve_fault(smooth, with); !fault.empty())
+    throw CaseError("plan.gradient_algorithm: " + fault);
+  report = solve(smooth, with);
+  std::vector<Eigen::VectorXd> starts;
+  if (best_x.size() > 0 && best_x != smooth.start) starts.push_back(best_x);
+  if (report.best_x.size() > 0 && report.best_x != best_x && report.best_x != smooth.start)
+    starts.push_back(report.best_x);
+  return starts;
+}
+
+PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem, const SearchProblem& smooth,
+                        EvaluationStore& store, const PlanOptions& options) {
   SearchOptions search_with = search_options(evaluator.base().plan);
   if (const std::string fault = search_fault(problem, search_with); !fault.empty()) throw CaseError("plan: " + fault);
 
   PlanResult result;
+  if (evaluator.base().plan.gradient_algorithm != "none") {
+    search_with.starts = follow_gradients(evaluator, smooth, store, options, result.gradient);
+    result.interrupted = result.gradient.status == SearchStatus::interrupted;
+    if (result.interrupted) return result;
+  }
   search_with.stop = options.stop;
   search_with.progress = [&](const SearchProgress& p) {
     if (p.evaluations == 1) result.baseline = *p.last;
@@ -102,9 +146,11 @@ SearchOptions search_options(const PlanSpec& plan) {
 
 StoreIdentity store_identity(const Case& c) {
   Node document = parse_document(c.resolved, c.file);
+  document.remove("tune");
   if (Node* plan = document.find("plan"))
     for (const char* key :
-         {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm"})
+         {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm",
+                            "gradient_algorithm", "gradient_evaluations", "certify"})
       plan->remove(key);
   StoreIdentity identity;
   identity.version = kVersion;
@@ -116,7 +162,7 @@ StoreIdentity store_identity(const Case& c) {
 }
 
 PlanResult solve_plan(const Evaluator& evaluator, EvaluationStore& store, const PlanOptions& options) {
-  return run_searches(evaluator, evaluator.problem(), store, options);
+  return run_searches(evaluator, evaluator.problem(), evaluator.smooth_problem({}), store, options);
 }
 
 PlanResult replay_plan(const Evaluator& evaluator, EvaluationStore& store) {
@@ -126,7 +172,9 @@ PlanResult replay_plan(const Evaluator& evaluator, EvaluationStore& store) {
     unknown.interrupted = true;
     return unknown;
   };
-  return run_searches(evaluator, problem, store, {});
+  SearchProblem smooth = problem;
+  smooth.evaluate_with_gradient = problem.evaluate;
+  return run_searches(evaluator, problem, smooth, store, {});
 }
 
 }  // namespace stillhook

@@ -27,6 +27,7 @@ struct PlanResult {
     double objective = 0.0;
     bool feasible = false;
   };
+  SearchReport gradient;  // the stage on the smooth problem; not_run without one
   SearchReport search, random;
   Evaluation baseline;
   std::vector<Point> history, random_history;  // in the order asked for

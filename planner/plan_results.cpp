@@ -10,8 +10,12 @@
 namespace stillhook {
 namespace {
 
+// A point with gradient costs about this many simulations (docs/performance.md).
+constexpr double kGradientCharge = 3.0;
+
 double equivalents(const Evaluator& evaluator, const PlanResult& result) {
-  return static_cast<double>(result.distinct) * static_cast<double>(evaluator.scenarios().size());
+  return (result.distinct + kGradientCharge * result.gradient.gradients) *
+         static_cast<double>(evaluator.scenarios().size());
 }
 
 double objective_or_nan(const Evaluation& evaluation) {

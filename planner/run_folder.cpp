@@ -14,7 +14,7 @@ constexpr std::array kFiles = {"case.toml",
                                "history.nc",
                                "report.html",
                                "plan.toml",
-                               "fitted.toml",
+                               "fitted.toml", "tuned.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
                                "evaluations.sqlite-shm"};

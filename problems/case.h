@@ -34,6 +34,8 @@ struct ScenarioSpec {
   std::optional<double> heading;         // rad
   std::optional<double> phase;           // rad, regular waves
   std::optional<int> seed;               // irregular waves
+  int seeds = 1;                         // irregular waves: that many, from `seed` on
+  int phases = 1;                        // regular waves: that many, evenly spaced from `phase` on
   double weight = 1.0;
 };
 
@@ -48,8 +50,19 @@ struct PlanSpec {
   std::string local_algorithm = "cobyla";
   double global_share = 0.5;             // of the evaluations
   int evaluations = 60;                  // budget
+  std::string gradient_algorithm = "none";  // first stage, on the smooth problem with exact gradients
+  int gradient_evaluations = 12;         // points with gradient
+  int certify = 0;                       // fresh seeds or phases for each scenario that the finished plan is tried in
   double time_budget = 0.0;              // s of wall time, 0 = none (a time budget gives up reproducibility)
   int seed = 1;
+};
+
+/// Tuning of tagline gains: the plan's objective and limits over few variables.
+struct TuneSpec {
+  std::vector<VariableSpec> variables;   // empty = Kp and Kd of all taglines together
+  std::string algorithm = "slsqp";       // with gradients
+  int evaluations = 16;                  // points
+  int map = 0;                           // points along each side of a map of the objective over the first two variables
 };
 
 /// --set KEY=VALUE: a dotted key, with the names of array entries as steps and "*" for all of them, and a TOML value.
@@ -65,6 +78,7 @@ struct Case {
   Specification specification;
   std::vector<LimitSpec> limits;
   PlanSpec plan;
+  TuneSpec tune;
   FitSpec fit;
   std::string resolved;                  // the document as used: the file plus every --set, as TOML text; names files
                                          // by absolute paths, so that it can be read from any folder

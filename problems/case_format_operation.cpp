@@ -215,7 +215,10 @@ const Table& scenario_table() {
         .absent("the state's");
     t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Seed instead of the state's, irregular waves.")
         .absent("the state's");
-    t.number("weight", &S::weight, unit::one, positive(), "Weight in the mean over scenarios.");
+    t.integer("seeds", &S::seeds, Range{1, 10000, false}, "Irregular waves: so many seeds, from `seed` on.");
+    t.integer("phases", &S::phases, Range{1, 1000, false},
+              "Regular waves: so many phases, evenly spaced from `phase_deg` on.");
+    t.number("weight", &S::weight, unit::one, positive(), "Weight in the mean over scenarios, of all its seeds together.");
     return t.build();
   }();
   return table;
@@ -291,6 +294,8 @@ const Table& limit_table() {
     t.number("max", &S::max, unit::one, any_value(), "Largest value allowed, in the metric's unit.").absent("none");
     t.number("min", &S::min, unit::one, any_value(), "Smallest value allowed.").absent("none");
     t.text("source", &S::source, "Where the number comes from; printed in every report.").require();
+    t.number("share", &S::share, unit::one, between(0.0, 0.5),
+             "Share of a search's scenarios that may break it; the verdict on one run knows no such share.");
     t.boolean("hard", &S::hard, "A violation fails the lift; otherwise it is a warning.");
     return t.build();
   }();
@@ -322,9 +327,32 @@ const Table& plan_table() {
     t.number("global_share", &S::global_share, unit::one, between(0.0, 1.0),
              "Share of the evaluations for the first part.");
     t.integer("evaluations", &S::evaluations, Range{1, 1000000, false}, "Budget of evaluations.");
+    t.text("gradient_algorithm", &S::gradient_algorithm,
+           "Algorithm of a stage before the first part that follows exact gradients of smooth metrics: `slsqp`, `ipopt`, "
+           "`ccsaq`, `mma`, `lbfgs`; or `none`.");
+    t.integer("gradient_evaluations", &S::gradient_evaluations, Range{1, 100000, false},
+              "Budget of that stage, points with gradient.");
+    t.integer("certify", &S::certify, Range{0, 100000, false},
+              "The finished plan is tried in so many fresh seeds (or wave phases) of each scenario; 0 = not.");
     t.number("time_budget_s", &S::time_budget, unit::s, positive(), "Wall time; gives up reproducibility.")
         .absent("none");
     t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Seed of the search.");
+    return t.build();
+  }();
+  return table;
+}
+
+const Table& tune_table() {
+  static const Table table = [] {
+    using S = TuneSpec;
+    TableOf<S> t("tune", "Tuning of tagline gains: the plan's objective, limits and scenarios over few variables.");
+    t.map("variables", &S::variables, &VariableSpec::key, &variable_table, "Gains to be tuned, by key.")
+        .absent("kp and kd of all taglines together");
+    t.text("algorithm", &S::algorithm,
+           "Algorithm: with exact gradients `slsqp`, `ipopt`, `ccsaq`, `mma`; without `cobyla`; or `auto`.");
+    t.integer("evaluations", &S::evaluations, Range{1, 100000, false}, "Budget of points.");
+    t.integer("map", &S::map, Range{0, 200, false},
+              "Points along each side of a map of the objective over the first two variables; 0 = no map.");
     return t.build();
   }();
   return table;
@@ -357,6 +385,7 @@ const Table& case_table() {
     t.map("limits", &S::limits, &LimitSpec::metric, &limit_table, "Limits, by metric.").absent("none");
     t.table("solver", spec(&Specification::solver), &solver_table, "Time stepping.").absent("defaults");
     t.table("plan", &S::plan, &plan_table, "The search.").absent("no search");
+    t.table("tune", &S::tune, &tune_table, "Tuning of tagline gains.").absent("as by default");
     t.table("fit", &S::fit, &fit_table, "What is estimated from measured runs.").absent("nothing");
     return t.build();
   }();

@@ -23,8 +23,8 @@ std::vector<ConstraintSpec> constraints_of(const Case& c) {
     if (!limit.hard) continue;
     const MetricDefinition* metric = metric_definition(limit.metric);
     if (!metric) throw CaseError("limits." + limit.metric + ": there is no such metric");
-    if (limit.max) constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->unit), true});
-    if (limit.min) constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->unit), false});
+    if (limit.max) constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->unit), true, limit.share});
+    if (limit.min) constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->unit), false, limit.share});
   }
   return constraints;
 }
@@ -68,10 +68,12 @@ double limit_scale(double limit, const std::string& unit) {
   return 1.0;  // deg, counts
 }
 
-Evaluator::Evaluator(Case c, const std::atomic<bool>* stop)
+Evaluator::Evaluator(Case c, const std::atomic<bool>* stop) : Evaluator(c, scenarios_of(c), stop) {}
+
+Evaluator::Evaluator(Case c, std::vector<ScenarioSpec> scenarios, const std::atomic<bool>* stop)
     : case_(std::move(c)),
       stop_(stop),
-      scenarios_(scenarios_of(case_)),
+      scenarios_(std::move(scenarios)),
       constraints_(constraints_of(case_)),
       metric_names_(stillhook::metric_names(case_.specification)) {
   check_objective(case_);
@@ -165,6 +167,19 @@ double Evaluator::constraint_of(const ScenarioOutcome& outcome, const Constraint
   return std::isfinite(scaled) ? scaled : 1.0;
 }
 
+std::size_t Evaluator::deciding(const ConstraintSpec& constraint, const std::vector<double>& values) const {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  double total = 0.0, passed = 0.0;
+  for (const ScenarioSpec& s : scenarios_) total += s.weight;
+  for (const std::size_t i : order) {
+    passed += scenarios_[i].weight;
+    if (passed > constraint.share * total * (1.0 + 1e-12)) return i;
+  }
+  return order.front();
+}
+
 double Evaluator::closeness(const ScenarioOutcome& outcome) const {
   if (constraints_.empty()) return objective_of(outcome);
   double closest = -std::numeric_limits<double>::infinity();
@@ -231,9 +246,9 @@ Evaluation Evaluator::aggregated(const std::vector<ScenarioOutcome>& outcomes) c
   e.constraints.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const ConstraintSpec& constraint = constraints_[static_cast<std::size_t>(i)];
-    double g = -std::numeric_limits<double>::infinity();
-    for (const ScenarioOutcome& outcome : outcomes) g = std::max(g, constraint_of(outcome, constraint));
-    e.constraints[i] = g;
+    std::vector<double> values;
+    for (const ScenarioOutcome& outcome : outcomes) values.push_back(constraint_of(outcome, constraint));
+    e.constraints[i] = values[deciding(constraint, values)];
   }
   return e;
 }

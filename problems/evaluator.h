@@ -2,6 +2,7 @@
 //
 //   minimise    f(x) = aggregate over scenarios s of  sum_k weight_k metric_k(x, s) / scale_k
 //   subject to  g_i(x) = max over scenarios s of  (value_i(x, s) - limit_i) / scale_i  <= 0     hard limits only
+//               (a limit that may be broken in a share of the scenarios: the largest value but that share)
 //   over        x = the case keys of [plan.variables], in their own units, within their bounds
 //
 // A minimum is the limit of the negative value. scale_i is |limit_i|, or one step of the metric's unit if that is zero.
@@ -42,6 +43,13 @@ struct ConstraintSpec {
   std::string metric;
   double limit = 0.0, scale = 1.0;  // in the metric's unit
   bool is_max = true;
+  double share = 0.0;  // of the scenarios' weight that may break it
+};
+
+/// Derivatives of the smooth metrics of a problem: rows as named, a column each variable, mean over the scenarios.
+struct SmoothSlopes {
+  std::vector<std::string> metrics;
+  Eigen::MatrixXd slope;
 };
 
 class Evaluator {
@@ -50,6 +58,8 @@ class Evaluator {
   /// does not exist. `stop`, when set from outside, interrupts the evaluations under way; it must outlive the
   /// evaluator.
   explicit Evaluator(Case c, const std::atomic<bool>* stop = nullptr);
+  /// The same in other conditions than the case's scenarios.
+  Evaluator(Case c, std::vector<ScenarioSpec> scenarios, const std::atomic<bool>* stop);
 
   const Case& base() const { return case_; }
   const std::vector<ScenarioSpec>& scenarios() const { return scenarios_; }
@@ -67,7 +77,8 @@ class Evaluator {
 
   /// The same with smooth counterparts of the metrics (smooth_metrics.h) in objective and constraints, and with their
   /// exact derivatives when `gradient`. `details` holds the metrics as they are.
-  Evaluation evaluate_smooth(const Eigen::VectorXd& x, const SmoothOptions& smooth, bool gradient) const;
+  Evaluation evaluate_smooth(const Eigen::VectorXd& x, const SmoothOptions& smooth, bool gradient,
+                             SmoothSlopes* slopes = nullptr) const;
   /// The smooth problem; it refers to this evaluator, which must outlive it.
   SearchProblem smooth_problem(const SmoothOptions& smooth) const;
 
@@ -78,6 +89,10 @@ class Evaluator {
   std::vector<ScenarioOutcome> outcomes(const Evaluation& evaluation) const;
   /// The objective term by term. Under `worst` the terms of the worst scenario; values NaN if it is not usable.
   std::vector<TermValue> terms(const Evaluation& evaluation) const;
+
+  /// Of one scenario: the objective, and a metric by name (NaN if there is none).
+  double objective_of(const ScenarioOutcome& outcome) const;
+  double metric_of(const ScenarioOutcome& outcome, const std::string& name) const;
 
   /// How close a scenario comes to its hard limits: the largest scaled constraint; without hard limits its objective.
   double closeness(const ScenarioOutcome& outcome) const;
@@ -101,11 +116,11 @@ class Evaluator {
                 ScenarioOutcome& outcome) const;
 
   ScenarioOutcome run_scenario(const Case& c, const ScenarioSpec& scenario) const;
-  double objective_of(const ScenarioOutcome& outcome) const;
   /// How much each scenario counts in the aggregated objective; they sum to one.
   Eigen::VectorXd scenario_shares(const Eigen::VectorXd& objectives) const;
   double constraint_of(const ScenarioOutcome& outcome, const ConstraintSpec& constraint) const;
-  double metric_of(const ScenarioOutcome& outcome, const std::string& name) const;
+  /// The scenario whose value counts for a constraint, given its value in each.
+  std::size_t deciding(const ConstraintSpec& constraint, const std::vector<double>& values) const;
 
   Case case_;
   const std::atomic<bool>* stop_;

@@ -108,21 +108,19 @@ Evaluation Evaluator::aggregated_smooth(const std::vector<SmoothOutcome>& outcom
   for (Eigen::Index i = 0; i < e.constraints.size(); ++i) {
     const ConstraintSpec& c = constraints_[static_cast<std::size_t>(i)];
     const double sign = (c.is_max ? 1.0 : -1.0) / c.scale;
-    double worst = -std::numeric_limits<double>::infinity();
-    for (const SmoothOutcome& outcome : outcomes) {
-      const double g = sign * (outcome.value[terms + i] - c.limit);
-      if (!std::isfinite(g)) continue;  // the raw value says what to think of it
-      if (g <= worst) continue;
-      worst = g;
-      e.constraint_jacobian.row(i) = sign * outcome.slope.row(terms + i);
-    }
-    if (std::isfinite(worst)) e.constraints[i] = worst;
+    std::vector<double> values;
+    for (const SmoothOutcome& outcome : outcomes) values.push_back(sign * (outcome.value[terms + i] - c.limit));
+    const std::size_t s = deciding(c, values);
+    if (!std::isfinite(values[s])) continue;  // the value as it is says what to think of it
+    e.constraints[i] = values[s];
+    e.constraint_jacobian.row(i) = sign * outcomes[s].slope.row(terms + i);
   }
   if (!std::isfinite(e.objective)) e.usable = false;
   return e;
 }
 
-Evaluation Evaluator::evaluate_smooth(const Eigen::VectorXd& x, const SmoothOptions& smooth, bool gradient) const {
+Evaluation Evaluator::evaluate_smooth(const Eigen::VectorXd& x, const SmoothOptions& smooth, bool gradient,
+                                      SmoothSlopes* slopes) const {
   std::vector<SmoothOutcome> outcomes(scenarios_.size());
   std::vector<std::exception_ptr> errors(scenarios_.size());
   Case changed;
@@ -141,12 +139,28 @@ Evaluation Evaluator::evaluate_smooth(const Eigen::VectorXd& x, const SmoothOpti
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
+  if (slopes) {
+    std::set<std::string> seen;
+    slopes->metrics.clear();
+    slopes->slope.resize(0, static_cast<Eigen::Index>(case_.plan.variables.size()));
+    for (std::size_t k = 0; k < smooth_names_.size(); ++k) {
+      if (!seen.insert(smooth_names_[k]).second) continue;
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(slopes->slope.cols());
+      for (const SmoothOutcome& o : outcomes) sum += o.slope.row(static_cast<Eigen::Index>(k));
+      slopes->metrics.push_back(smooth_names_[k]);
+      slopes->slope.conservativeResize(slopes->slope.rows() + 1, Eigen::NoChange);
+      slopes->slope.bottomRows(1) = sum / static_cast<double>(outcomes.size());
+    }
+  }
   return aggregated_smooth(outcomes, gradient);
 }
 
 SearchProblem Evaluator::smooth_problem(const SmoothOptions& smooth) const {
   SearchProblem problem = this->problem();
   problem.evaluate = [this, smooth](const Eigen::VectorXd& x) { return evaluate_smooth(x, smooth, false); };
+  problem.evaluate_with_gradient = [this, smooth](const Eigen::VectorXd& x) {
+    return evaluate_smooth(x, smooth, true);
+  };
   return problem;
 }
 

@@ -1,14 +1,73 @@
 #include "problems/scenarios.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace stillhook {
 
-std::vector<ScenarioSpec> scenarios_of(const Case& c) {
+namespace {
+
+// Seeds of certification lie far from those of a search.
+constexpr int kFreshSeeds = 1'000'003;
+
+const SeaStateSpec* sea_of(const Case& c, const ScenarioSpec& scenario) {
+  for (const SeaStateSpec& s : c.specification.sea.states)
+    if (s.name == scenario.sea) return &s;
+  return nullptr;
+}
+
+// `count` seeds or phases in place of one; an offset of the seed, a shift of the phases in steps between them.
+void expand(const Case& c, const ScenarioSpec& scenario, int count, int seed_offset, double phase_shift,
+            std::vector<ScenarioSpec>& all) {
+  const SeaStateSpec* sea = sea_of(c, scenario);
+  const bool regular = sea && sea->type == SeaStateSpec::Type::regular;
+  for (int k = 0; k < count; ++k) {
+    ScenarioSpec one = scenario;
+    one.seeds = one.phases = 1;
+    one.weight = scenario.weight / count;
+    if (count > 1) one.name += "#" + std::to_string(k + 1);
+    if (regular && (count > 1 || phase_shift != 0.0))
+      one.phase = scenario.phase.value_or(sea->phase) + 2.0 * std::numbers::pi * (k + phase_shift) / count;
+    if (!regular && sea && (count > 1 || seed_offset != 0)) one.seed = scenario.seed.value_or(sea->seed) + seed_offset + k;
+    all.push_back(one);
+  }
+}
+
+std::vector<ScenarioSpec> given(const Case& c) {
   if (!c.plan.scenarios.empty()) return c.plan.scenarios;
   ScenarioSpec only;
   only.name = only.sea = c.specification.sea.active;
   return {only};
+}
+
+}  // namespace
+
+std::vector<ScenarioSpec> scenarios_of(const Case& c) {
+  std::vector<ScenarioSpec> all;
+  for (const ScenarioSpec& s : given(c)) {
+    const SeaStateSpec* sea = sea_of(c, s);
+    const bool regular = sea && sea->type == SeaStateSpec::Type::regular;
+    if (s.seeds > 1 && s.phases > 1)
+      throw CaseError("plan.scenarios." + s.name + ": a sea has either seeds or phases, not both");
+    if (regular ? s.seeds > 1 : s.phases > 1)
+      throw CaseError("plan.scenarios." + s.name + (regular ? ".seeds: only an irregular sea has seeds, "
+                                                            : ".phases: only a regular wave has phases, ") +
+                      s.sea + " is not one");
+    expand(c, s, std::max(s.seeds, s.phases), 0, 0.0, all);
+  }
+  return all;
+}
+
+std::vector<ScenarioSpec> fresh_scenarios(const Case& c, int count) {
+  std::vector<ScenarioSpec> all;
+  // A shift that no even division of the search's own phases hits.
+  constexpr double kShift = 0.381966;
+  for (const ScenarioSpec& s : given(c)) {
+    const SeaStateSpec* sea = sea_of(c, s);
+    const bool calm = sea && sea->type == SeaStateSpec::Type::calm;
+    expand(c, s, calm ? 1 : count, kFreshSeeds, calm ? 0.0 : kShift, all);
+  }
+  return all;
 }
 
 Specification in_scenario(Specification specification, const ScenarioSpec& scenario) {

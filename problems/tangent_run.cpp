@@ -10,8 +10,9 @@ namespace stillhook {
 namespace {
 
 // Half the width of a twin, as a share of the key's value or of a hundredth of its range: the second order left out is
-// its square, 1e-8; the statics behind a twin are solved to 1e-10.
-constexpr double kHalfWidth = 1e-4;
+// its square, 4e-10; the statics behind a twin are solved to 1e-10. Timing moves the ends of ramps, where a run has
+// kinks, across steps, but is free of rounding from statics: there the twins stand closer.
+constexpr double kHalfWidth = 2e-5, kHalfWidthOfTiming = 1e-6;
 constexpr double kSmallestShare = 0.01;
 
 struct Lift {
@@ -34,8 +35,7 @@ bool is_timing(const std::string& key, const Case& base, const Case& changed) {
 }
 
 LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double range, const Condition& condition) {
-  const double x = key_value(c, key);
-  const double half = kHalfWidth * std::max(std::abs(x), kSmallestShare * range);
+  const double x = key_value(c, key), scale = std::max(std::abs(x), kSmallestShare * range);
   const auto at = [&](double value) {
     const Case changed = with_values(c, {{key, value}});
     if (!is_timing(key, c, changed)) return lift_of(changed, condition);
@@ -50,8 +50,15 @@ LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double
     }
     return std::nullopt;
   };
-  // At the edge of what the key may be the twin stands on one side.
+  bool timing = false;
+  try {
+    timing = is_timing(key, c, with_values(c, {{key, x + kHalfWidth * scale}}));
+  } catch (const CaseError&) {
+    timing = is_timing(key, c, with_values(c, {{key, x - kHalfWidth * scale}}));
+  }
+  const double half = (timing ? kHalfWidthOfTiming : kHalfWidth) * scale;
   std::optional<Lift> low = try_at(x - half), high = try_at(x + half);
+  // At the edge of what the key may be the twin stands on one side.
   double from = x - half, to = x + half;
   if (!low) low = at(from = x);
   if (!high) high = at(to = x);
@@ -75,8 +82,8 @@ TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const
   for (int j = 0; j < keys; ++j) {
     const std::size_t k = static_cast<std::size_t>(j);
     try {
-      const double range = k < request.ranges.size() ? request.ranges[k]
-                                                     : std::max(1.0, std::abs(key_value(c, request.keys[k])));
+      const double range =
+          k < request.ranges.size() ? request.ranges[k] : std::max(1.0, std::abs(key_value(c, request.keys[k])));
       twins[k] = twin_of(c, base, request.keys[k], range, request.condition);
     } catch (...) {
       errors[k] = std::current_exception();
@@ -98,8 +105,7 @@ TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const
   wanted.by_initial_state = request.by_initial_state;
   wanted.growth_limit = request.growth_limit;
   try {
-    result.trajectory =
-        simulate_with_tangents(*base.model, *base.operation, run_with, twins, wanted, result.tangents);
+    result.trajectory = simulate_with_tangents(*base.model, *base.operation, run_with, twins, wanted, result.tangents);
   } catch (const std::invalid_argument& error) {
     throw CaseError(std::string("derivatives: ") + error.what());
   }

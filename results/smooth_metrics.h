@@ -21,7 +21,7 @@ namespace stillhook {
 struct SmoothOptions {
   double sharpness = 20.0;      // > 0: s times the range of r, which is its largest less its smallest value
   double gap_width = 0.02;      // m, > 0
-  double rehit_speed = 0.1;     // m/s, > 0: v0, a re-hit that counts as one
+  double rehit_speed = 1.0;     // m/s, > 0: v0, a re-hit that counts as one
   double saturation_width = 0.05;  // 1, > 0: share of the limit over which saturation sets in
 };
 

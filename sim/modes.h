@@ -36,13 +36,14 @@ class ModalAnalysis {
   /// All modes at a state in static equilibrium (see solve_static), in the order of falling periods. The elements see
   /// calm water and the state's phase.
   std::vector<Mode> at(const SystemState& equilibrium) const;
+  /// Mass matrix with the hulls' added mass at a frequency (rad/s).
+  MatrixX mass_at(double frequency) const;
 
  private:
   struct Hull {
     int body = 0;
     Matrix3 R_WH = Matrix3::Identity();
   };
-  MatrixX mass_at(double frequency) const;
 
   const Model& model_;
   std::vector<Hull> hulls_;

@@ -1,5 +1,5 @@
-// A simulation together with its tangent: the derivatives of what it records with respect to parameters of the model and
-// the operation, or to its initial state. hht_tangent.h has the mathematics.
+// A simulation together with its tangent: the derivatives of what it records with respect to parameters of the model
+// and the operation, or to its initial state. hht_tangent.h has the mathematics.
 //
 // A phase that waits for a contact to be clear moves with the time of the parting: the derivative of that time follows
 // from the gap at the two steps on either side. Whether a line is connected or a contact acts is decided step by step
@@ -33,10 +33,10 @@ struct TangentOptions {
 
 /// Derivatives per unit of each parameter; p directions.
 struct Tangents {
-  std::vector<int> channels;         // indices in Trajectory::channels
-  std::vector<MatrixX> values;       // [channel of the request] samples x p
+  std::vector<int> channels;    // indices in Trajectory::channels
+  std::vector<MatrixX> values;  // [channel of the request] samples x p
   struct OfExtreme {
-    VectorX min, max;                // of Extreme::min and max, p
+    VectorX min, max;  // of Extreme::min and max, p
   };
   std::vector<std::vector<OfExtreme>> extremes;  // [phase][channel of the request]
   std::vector<VectorX> phase_start, phase_end;   // [phase] p, s per unit

@@ -12,8 +12,7 @@ constexpr double kNudge = 2e-6;  // m, rad, m/s: width of the differences that s
 int state_directions(const MultibodySystem& system) { return 2 * system.coordinates() + system.element_state_size(); }
 
 TangentPass::TangentPass(const Model& model, HhtStepper& stepper, const std::vector<LiftTwin>& twins,
-                         const TangentOptions& wanted, const Trajectory& run, Tangents& out,
-                         bool started_elsewhere)
+                         const TangentOptions& wanted, const Trajectory& run, Tangents& out, bool started_elsewhere)
     : model_(model),
       stepper_(stepper),
       twins_(twins),
@@ -29,8 +28,8 @@ TangentPass::TangentPass(const Model& model, HhtStepper& stepper, const std::vec
     for (int side = 0; side < 2; ++side)
       lifts_.back()[side] = {std::make_unique<ChannelBoard>(*twin.model[side]),
                              std::make_unique<SystemWorkspace>(twin.model[side]->system().make_workspace()),
-                             std::make_unique<OperationClock>(
-                                 *twin.operation[side], static_cast<int>(model.specification().drives.size()))};
+                             std::make_unique<OperationClock>(*twin.operation[side],
+                                                              static_cast<int>(model.specification().drives.size()))};
   }
   choose_parts(wanted.channels);
 }
@@ -50,8 +49,7 @@ void TangentPass::choose_parts(const std::vector<std::string>& channels) {
   samples_.resize(channels.size());
 }
 
-std::vector<std::array<SystemState, 2>> TangentPass::starts(const SystemState& base,
-                                                            std::vector<SystemTwin>& systems) {
+std::vector<std::array<SystemState, 2>> TangentPass::starts(const SystemState& base, std::vector<SystemTwin>& systems) {
   std::vector<std::array<SystemState, 2>> all;
   const bool given = started_elsewhere_;
   for (const LiftTwin& twin : twins_) {

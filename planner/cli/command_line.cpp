@@ -35,6 +35,7 @@ struct Request {
   PlanArguments plan;
   HydroArguments hydro;
   FitArguments fit;
+  TuneArguments tune;
   int threads = 0;
   bool reference = false;  // schema: the key reference instead
   std::function<int()> verb;
@@ -104,6 +105,15 @@ void add_verbs(CLI::App& app, Request& r) {
   CLI::Option* resume = plan->add_flag("--resume", r.plan.resume, "Go on with the search that the folder holds");
   resume->excludes("--force");
   plan->callback([&r] { r.verb = [&r] { return run_plan(r.common, r.plan); }; });
+
+  CLI::App* tune = app.add_subcommand("tune", "Tune the tagline gains: gains, damping of the swing, report");
+  add_case_options(*tune, r);
+  add_run_options(*tune, r, "Seed of the search");
+  tune->add_option("--evaluations", r.tune.evaluations, "Budget of points")->type_name("N")->check(CLI::Range(1, 100000));
+  tune->add_option("--map", r.tune.map, "Map the objective over the first two gains with N x N points (0 = none)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 200));
+  tune->callback([&r] { r.verb = [&r] { return run_tune(r.common, r.tune); }; });
 
   CLI::App* fit = app.add_subcommand("fit", "Estimate parameters of the case from measured runs, with intervals");
   add_case_options(*fit, r);

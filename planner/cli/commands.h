@@ -42,10 +42,15 @@ struct FitArguments {
   std::vector<std::string> measured;  // FILE or RECORD=FILE
 };
 
+struct TuneArguments {
+  std::optional<int> evaluations, map;
+};
+
 int run_check(const CommonOptions& options);
 int run_hydro(const CommonOptions& options, const HydroArguments& arguments);
 int run_simulate(const CommonOptions& options);
 int run_plan(const CommonOptions& options, const PlanArguments& arguments);
+int run_tune(const CommonOptions& options, const TuneArguments& arguments);
 int run_fit(const CommonOptions& options, const FitArguments& arguments);
 int run_report(const CommonOptions& options);
 int run_schema(bool reference);

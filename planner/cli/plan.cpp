@@ -12,7 +12,9 @@
 #include "planner/cli/progress.h"
 #include "planner/cli/run_files.h"
 #include "planner/cli/tables.h"
+#include "planner/certify.h"
 #include "planner/plan_results.h"
+#include "planner/sensitivity.h"
 #include "planner/version.h"
 #include "results/files.h"
 
@@ -67,13 +69,14 @@ void add_new(std::vector<std::string>& warnings, const std::vector<std::string>&
 class Conclusion {
  public:
   Conclusion(const CommonOptions& options, const RunFolder& folder, const Evaluator& evaluator,
-             const PlanResult& result, const std::string& statement, double wall)
+             const PlanResult& result, const std::string& statement, double wall, const std::atomic<bool>& stop)
       : options_(options),
         folder_(folder),
         evaluator_(evaluator),
         result_(result),
         statement_(statement),
         wall_(wall),
+        stop_(stop),
         search_(search_section(evaluator, result, wall)) {}
 
   int finish() {
@@ -117,7 +120,25 @@ class Conclusion {
     summary_.limits = worst_limits(limits);
     write_history(folder_, run, planned);
     write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
-                     {history_note(evaluator_, governing)});
+                     {history_note(evaluator_, governing)}, judgement(x));
+  }
+
+  /// Sensitivities where the case follows gradients, certification where it asks for it.
+  std::vector<ReportTable> judgement(const Eigen::VectorXd& x) {
+    std::vector<ReportTable> tables;
+    const PlanSpec& plan = evaluator_.base().plan;
+    if (plan.certify > 0) {
+      spdlog::info("running plan and baseline in {} fresh conditions",
+                   plan.certify * static_cast<int>(std::max<std::size_t>(1, plan.scenarios.size())));
+      certificate_ = certify(evaluator_, x, &stop_);
+      for (ReportTable& table : certificate_tables(*certificate_)) tables.push_back(std::move(table));
+    }
+    if (plan.gradient_algorithm != "none") {
+      const PlanSensitivities sensitivities = plan_sensitivities(evaluator_, x);
+      if (!sensitivities.valid) summary_.warnings.push_back("the derivatives at the plan are not usable: no sensitivities");
+      for (ReportTable& table : sensitivity_tables(evaluator_, sensitivities)) tables.push_back(std::move(table));
+    }
+    return tables;
   }
 
   void print() const {
@@ -126,6 +147,7 @@ class Conclusion {
       return;
     }
     if (result_.search.evaluations > 0) fmt::print("{}\n", search_text(search_));
+    if (certificate_) fmt::print("{}\n", certificate_text(*certificate_));
     if (result_.has_plan()) fmt::print("Plan: {}\n", folder_.plan());
     if (result_.has_plan() && !result_.interrupted) fmt::print("Report: {}\n", folder_.report());
   }
@@ -149,7 +171,9 @@ class Conclusion {
   const PlanResult& result_;
   const std::string& statement_;
   double wall_;
+  const std::atomic<bool>& stop_;
   SearchSection search_;
+  std::optional<Certificate> certificate_;
   Summary summary_;
 };
 
@@ -191,7 +215,7 @@ int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
   const PlanResult result = solve_plan(evaluator, store, with);
   progress.clear();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  return Conclusion(options, folder, evaluator, result, statement, wall.count()).finish();
+  return Conclusion(options, folder, evaluator, result, statement, wall.count(), stop).finish();
 }
 
 }  // namespace stillhook

@@ -14,8 +14,12 @@ void write_history(const RunFolder& folder, const RunResult& run, const Case& c)
 }
 
 void write_run_report(const RunFolder& folder, const RunResult& run, const PreparedRun& prepared, const Case& c,
-                      const std::string& statement, const SearchSection* search, std::vector<std::string> notes) {
+                      const std::string& statement, const SearchSection* search, std::vector<std::string> notes,
+                      const std::vector<ReportTable>& tables) {
   const std::vector<StaticPose> poses = solve_poses(prepared.model);
+  std::vector<ReportTable> all = tables;
+  for (ReportTable& table : static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation)))
+    all.push_back(std::move(table));
   const ReportData data{c.title.empty() ? c.name : c.title,
                         statement,
                         c.resolved,
@@ -26,7 +30,7 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                         run.limits,
                         std::move(notes),
                         poses,
-                        static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation)),
+                        std::move(all),
                         search,
                         prepared.model.warnings()};
   write_or_refuse([&] { write_report(data, folder.report()); });

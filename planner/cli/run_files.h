@@ -13,6 +13,6 @@ void write_history(const RunFolder& folder, const RunResult& run, const Case& c)
 /// Writes report.html: static tables from the model, `search` for a plan.
 void write_run_report(const RunFolder& folder, const RunResult& run, const PreparedRun& prepared, const Case& c,
                       const std::string& statement, const SearchSection* search = nullptr,
-                      std::vector<std::string> notes = {});
+                      std::vector<std::string> notes = {}, const std::vector<ReportTable>& tables = {});
 
 }  // namespace stillhook

@@ -10,8 +10,9 @@
 namespace stillhook {
 
 namespace {
-constexpr double kSteepest = 0.1;  // least horizontal share of the line at the initial pose
-}
+constexpr double kSteepest = 0.1;     // least horizontal share of the line at the initial pose
+constexpr double kSwitchRate = 2e-4;  // rad/s, over which the Kp term sets in
+}  // namespace
 
 TaglineCase tagline_case(double theta_rate, double error) {
   if (theta_rate < 0.0) return TaglineCase::C;
@@ -66,25 +67,26 @@ bool Tagline::same_as(const ForceElement& other) const {
   return line && line->options_ == options_ && line->k_ == k_ && line->angle_.n_H == angle_.n_H;
 }
 
-Tagline::Command Tagline::command(const PlaneAngle::Value& angle, bool pulling) const {
+Tagline::Command Tagline::command(const PlaneAngle::Value& angle) const {
   const TaglineOptions& o = options_;
   Command c{.value = o.pretension};
-  if (pulling) {
-    const double e = angle.angle - o.set_point;
-    const double law = o.kp * std::max(0.0, e) + o.kd * angle.rate;
-    if (law > 0.0) {
-      c.value += law;
-      c.by_angle = e >= 0.0 ? o.kp : 0.0;
-      c.by_rate = o.kd;
-    }
+  if (angle.rate > 0.0) {
+    const double e = std::max(0.0, angle.angle - o.set_point);
+    const double x = std::min(1.0, angle.rate / kSwitchRate), sets_in = x * x * (3.0 - 2.0 * x);
+    c.value += sets_in * o.kp * e + o.kd * angle.rate;
+    c.by_angle = e > 0.0 ? sets_in * o.kp : 0.0;
+    c.by_rate = o.kd + 6.0 * x * (1.0 - x) / kSwitchRate * o.kp * e;
   }
   if (c.value > o.tension_max) return {.value = o.tension_max, .limited = true};
   return c;
 }
 
 Tagline::Command Tagline::steady_command(const PlaneAngle::Value& angle) const {
-  Command c = command({angle.angle, 0.0}, true);
-  c.by_rate = 0.0;
+  const TaglineOptions& o = options_;
+  const double e = angle.angle - o.set_point;
+  Command c{.value = o.pretension};
+  if (e > 0.0) c = {.value = o.pretension + o.kp * e, .by_angle = o.kp};
+  if (c.value > o.tension_max) return {.value = o.tension_max, .limited = true};
   return c;
 }
 
@@ -96,10 +98,15 @@ Tagline::Pull Tagline::pull(double length, double command, double h, Memory m) c
   double out = length - m.scratch[kLength] - (wanted - before) / k_;  // line paid out in this step
 
   Pull p{.tension = wanted, .by_length = 0.0, .by_command = a / (1.0 + a)};
+  p.by_length_before = k_ * (1.0 - a) / (1.0 + a);
+  p.by_paid_before = -p.by_length_before;
+  p.by_command_before = p.by_command;
   const double most = options_.speed_max > 0.0 ? options_.speed_max * h : std::numeric_limits<double>::infinity();
   if (std::abs(out) > most) {
     out = std::copysign(most, out);
     p = {.tension = k_ * (length - paid_out - out), .by_length = k_, .by_command = 0.0, .limited = true};
+    p.by_paid_before = -k_;
+    p.held = true;
   }
   if (p.tension > options_.tension_max) {
     const double slip = (p.tension - options_.tension_max) / k_;
@@ -108,7 +115,6 @@ Tagline::Pull Tagline::pull(double length, double command, double h, Memory m) c
   }
   p.paid_out = paid_out + out;
   p.line_speed = out / h;
-  if (p.tension < 0.0) p.tension = p.by_length = p.by_command = 0.0;
   return p;
 }
 
@@ -129,18 +135,16 @@ void Tagline::start(const Instant& now, Memory m) const {
 void Tagline::begin_step(const Instant& before, double, Memory m) const {
   if (!active(before)) return;
   const PlaneAngle::Value angle = angle_.value(before);
-  const bool pulling = tagline_case(angle.rate, angle.angle - options_.set_point) != TaglineCase::C;
   m.scratch[kLength] = line_motion(options_.to, options_.from, before).length;
-  m.scratch[kCommand] = command(angle, pulling).value;
-  m.scratch[kPulling] = pulling ? 1.0 : 0.0;
+  m.scratch[kCommand] = command(angle).value;
 }
 
 void Tagline::add_forces(const Instant& now, double h, Memory m, ForceSum& out) const {
   if (!active(now)) return;
   const LineMotion line = line_motion(options_.to, options_.from, now);
   const PlaneAngle::Value angle = angle_.value(now);
-  const double tension = h > 0.0 ? pull(line.length, command(angle, m.scratch[kPulling] != 0.0).value, h, m).tension
-                                 : steady_command(angle).value;
+  const double tension =
+      h > 0.0 ? std::max(0.0, pull(line.length, command(angle).value, h, m).tension) : steady_command(angle).value;
   add_line_forces(options_.to, options_.from, now, line, tension, out);
 }
 
@@ -151,8 +155,9 @@ void Tagline::add_jacobian(const Instant& now, double h, Memory m, JacobianSum& 
   Command c = steady_command(angle);
   Pull p{.tension = c.value, .by_command = 1.0};
   if (h > 0.0) {
-    c = command(angle, m.scratch[kPulling] != 0.0);
+    c = command(angle);
     p = pull(line.length, c.value, h, m);
+    if (p.tension < 0.0) return;
   }
   add_line_jacobian(options_.to, options_.from, now, line, p.tension, p.by_length, 0.0, out);
   const double by_angle = p.by_command * c.by_angle, by_rate = p.by_command * c.by_rate;
@@ -174,12 +179,74 @@ void Tagline::end_step(const Instant& now, double h, Memory m) const {
   }
   if (h <= 0.0) return;
   const double length = line_motion(options_.to, options_.from, now).length;
-  const Command c = command(angle_.value(now), m.scratch[kPulling] != 0.0);
+  const Command c = command(angle_.value(now));
   const Pull p = pull(length, c.value, h, m);
   m.state[kPaidOut] = p.paid_out;
   m.state[kLineSpeed] = p.line_speed;
   m.state[kSlipSpeed] = p.slip_speed;
   m.state[kSaturated] = c.limited || p.limited ? 1.0 : 0.0;
+}
+
+void Tagline::add_changes(const Instant& at, const Command& c, const BodyChange& bodies, Eigen::RowVectorXd& length,
+                          Eigen::RowVectorXd& command_change) const {
+  const LineMotion line = line_motion(options_.to, options_.from, at);
+  const auto add_length = [&](const BodyPoint& end, double sign) {
+    if (end.body == kWorld) return;
+    length.noalias() +=
+        (sign * line.e.transpose() * position_jacobian(end, at)) * bodies.xi.middleRows<6>(6 * end.body);
+  };
+  add_length(options_.to, 1.0);
+  add_length(options_.from, -1.0);
+  if (c.by_angle == 0.0 && c.by_rate == 0.0) return;
+  for (const PlaneAngle::Gradient& g : angle_.gradient(at)) {
+    if (g.body == kWorld) continue;
+    command_change.noalias() += (c.by_angle * g.angle_xi + c.by_rate * g.rate_xi) * bodies.xi.middleRows<6>(6 * g.body);
+    command_change.noalias() += (c.by_rate * g.rate_u) * bodies.u.middleRows<6>(6 * g.body);
+  }
+}
+
+bool Tagline::add_history_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                                  const Eigen::Ref<const MatrixX>& state, Eigen::Ref<MatrixX> dQ) const {
+  if (!active(now) || h <= 0.0) return true;
+  const LineMotion line = line_motion(options_.to, options_.from, now);
+  const Pull p = pull(line.length, command(angle_.value(now)).value, h, m);
+  if (p.tension < 0.0) return true;
+  Eigen::RowVectorXd length = Eigen::RowVectorXd::Zero(dQ.cols()), command_change = length;
+  add_changes(before, command(angle_.value(before)), from, length, command_change);
+  const Eigen::RowVectorXd tension =
+      p.by_length_before * length + p.by_paid_before * state.row(kPaidOut) + p.by_command_before * command_change;
+  ForceSum unit(static_cast<int>(now.body.size()));
+  add_line_forces(options_.to, options_.from, now, line, 1.0, unit);
+  dQ.noalias() += unit.value() * tension;
+  return true;
+}
+
+bool Tagline::advance_state_tangent(const Instant& before, const Instant& now, double h, Memory m,
+                                    const BodyChange& from, const BodyChange& to, Eigen::Ref<MatrixX> state) const {
+  const LineMotion line = line_motion(options_.to, options_.from, now);
+  Eigen::RowVectorXd length = Eigen::RowVectorXd::Zero(state.cols()), command_change = length;
+  const Command c = active(now) ? command(angle_.value(now)) : Command{};
+  add_changes(now, c, to, length, command_change);
+  const Eigen::RowVectorXd paid_before = state.row(kPaidOut);
+  state.setZero();
+  if (!active(now)) {
+    state.row(kPaidOut) = length;
+    return true;
+  }
+  const Pull p = pull(line.length, c.value, h, m);
+  if (p.held && p.slip_speed == 0.0) {
+    state.row(kPaidOut) = paid_before;
+    return true;
+  }
+  // Elsewhere the line paid out is what the tension leaves of its length.
+  Eigen::RowVectorXd length_before = Eigen::RowVectorXd::Zero(state.cols()), command_before = length_before;
+  add_changes(before, command(angle_.value(before)), from, length_before, command_before);
+  const Eigen::RowVectorXd tension = p.by_length * length + p.by_command * command_change +
+                                     p.by_length_before * length_before + p.by_paid_before * paid_before +
+                                     p.by_command_before * command_before;
+  state.row(kPaidOut) = length - tension / k_;
+  state.row(kLineSpeed) = (state.row(kPaidOut) - paid_before) / h;
+  return true;
 }
 
 double Tagline::potential_energy(const Instant& now, Memory m) const {
@@ -202,9 +269,8 @@ std::vector<Channel> Tagline::channels() const {
 
 void Tagline::measure(const Instant& now, Memory m, std::span<double> out) const {
   const PlaneAngle::Value angle = angle_.value(now);
-  const bool pulling = tagline_case(angle.rate, angle.angle - options_.set_point) != TaglineCase::C;
   out[0] = held_tension(now, m);
-  out[1] = active(now) ? command(angle, pulling).value : 0.0;
+  out[1] = active(now) ? command(angle).value : 0.0;
   out[2] = active(now) ? m.state[kLineSpeed] : 0.0;
   out[3] = m.state[kSaturated];
   out[4] = angle.angle;

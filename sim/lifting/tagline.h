@@ -26,11 +26,11 @@
 // One step, h: by the trapezoidal rule the tension without a limit is
 //   T1 = ((1 - a) T0 + a (c0 + c1))/(1 + a),   a = h/(2 tau),   c = T_command,
 // the line paid out for it dLw = l1 - l0 - (T1 - T0)/k; if |dLw| > h speed_max it is cut to that and T1 = k (l1 - Lw1).
-// All in closed form, so the state leaves Newton's method. Whether case C holds is decided once a step, from its
-// converged beginning, as a sampled controller does: at thetadot = 0 the law jumps (by Kp e), and a step that ends on
-// the jump would have no solution. In a step that begins in case A or B the law is max(0, Kp max(0, e) + Kd edot),
-// which is Eq. 12 and 13 as long as thetadot stays positive; the switch comes at most one step late. In statics (h = 0)
-// T is the steady value, min(pretension + Kp max(0, e), tension_max).
+// All in closed form, so the state leaves Newton's method. At thetadot = 0 the law of Eq. 12 jumps by Kp e: a step that
+// ends on the jump would have no solution, and a run would not depend smoothly on anything that moves the instant of the
+// jump. So the Kp term sets in over a small rate, s(thetadot/rate0) Kp e with s(x) = x^2 (3 - 2 x), rate0 = 2e-4 rad/s
+// (a hundredth of a degree a second; swings have a hundred times that). In statics (h = 0) T is the steady value,
+// min(pretension + Kp max(0, e), tension_max).
 //
 // Energy: 1/2 T^2/k in the line; heat T x slip speed in the brake; the winch gives -T x (rest of the line speed).
 #pragma once
@@ -84,6 +84,10 @@ class Tagline final : public ForceElement {
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
   void end_step(const Instant& now, double h, Memory m) const override;
+  bool add_history_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                           const Eigen::Ref<const MatrixX>& state, Eigen::Ref<MatrixX> dQ) const override;
+  bool advance_state_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                             const BodyChange& to, Eigen::Ref<MatrixX> state) const override;
   double potential_energy(const Instant& now, Memory m) const override;
   double dissipated_power(const Instant& now, Memory m) const override;
   std::vector<Channel> channels() const override;
@@ -92,8 +96,8 @@ class Tagline final : public ForceElement {
  private:
   // State: line paid out (m), mean speed of it and of the slipping brake over the last step (m/s), saturated (0 or 1).
   enum { kPaidOut, kLineSpeed, kSlipSpeed, kSaturated, kStates };
-  // Scratch, from the beginning of the step: line length (m), command (N), whether the law pulls (0 or 1).
-  enum { kLength, kCommand, kPulling, kScratch };
+  // Scratch, from the beginning of the step: line length (m), command (N).
+  enum { kLength, kCommand, kScratch };
 
   struct Command {
     double value = 0.0, by_angle = 0.0, by_rate = 0.0;  // N, N/rad, N s/rad
@@ -103,9 +107,15 @@ class Tagline final : public ForceElement {
     double tension = 0.0, by_length = 0.0, by_command = 0.0;    // N, N/m, 1
     double paid_out = 0.0, line_speed = 0.0, slip_speed = 0.0;  // m, m/s, m/s
     bool limited = false;
+    // By what the step began with: line length and line paid out (N/m), command (1).
+    double by_length_before = 0.0, by_paid_before = 0.0, by_command_before = 0.0;
+    bool held = false;  // the winch is at its speed limit: the line paid out does not follow the tension
   };
   bool active(const Instant& now) const { return options_.active && now.phase >= options_.active_from_phase; }
-  Command command(const PlaneAngle::Value& angle, bool pulling) const;
+  Command command(const PlaneAngle::Value& angle) const;
+  /// Change of the line's length and of the command, a column each direction; `c` belongs to the instant.
+  void add_changes(const Instant& at, const Command& c, const BodyChange& bodies, Eigen::RowVectorXd& length,
+                   Eigen::RowVectorXd& command) const;
   Command steady_command(const PlaneAngle::Value& angle) const;
   Pull pull(double length, double command, double h, Memory m) const;
   double held_tension(const Instant& now, Memory m) const;

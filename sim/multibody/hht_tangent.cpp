@@ -47,8 +47,7 @@ HhtTangent::Twin HhtTangent::compare(const MultibodySystem& base, const SystemTw
       const ForceElement& other = *of.system[side]->elements[e];
       return &own == &other || own.same_as(other);
     };
-    if (!same(0) || !same(1))
-      twin.elements.push_back(static_cast<int>(e));
+    if (!same(0) || !same(1)) twin.elements.push_back(static_cast<int>(e));
   }
   if (!twin.elements.empty())
     for (int side = 0; side < 2; ++side) twin.scratch[side] = of.system[side]->make_workspace().element_scratch;
@@ -65,6 +64,11 @@ HhtTangent::HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins)
   now_.element_state = state_explicit_ = zero(system_.element_state_size());
   from_.xi = from_.u = E_ = a_start_ = zero(n);
   rhs_ = y_ = zero(n + m);
+  of_history_.assign(static_cast<std::size_t>(system_.element_state_size()), false);
+  for (std::size_t e = 0; e < system_.elements.size(); ++e)
+    if (system_.elements[e]->has_history())
+      std::fill_n(of_history_.begin() + system_.state_offset(static_cast<int>(e)), system_.elements[e]->state_size(),
+                  true);
   change_ = VectorX::Zero(system_.element_state_size());
   scratch_ = system_.make_workspace().element_scratch;
 }
@@ -97,7 +101,8 @@ void HhtTangent::start(const SystemState& base, std::vector<std::array<SystemSta
       now_.F0.col(j) += sign * (stepper.F0_ - stepper_.F0_);
       now_.lambda.col(j) += sign * (s.lambda - base.lambda);
       for (std::size_t k = 0; k < base.element_state.size(); ++k)
-        now_.element_state(static_cast<Eigen::Index>(k), j) += sign * (s.element_state[k] - base.element_state[k]);
+        if (of_history_[k])
+          now_.element_state(static_cast<Eigen::Index>(k), j) += sign * (s.element_state[k] - base.element_state[k]);
     }
   }
 }

@@ -111,6 +111,7 @@ class HhtTangent {
   SystemState before_, middle_, displaced_;
   std::vector<BodyKinematics> to_;
   std::vector<double> scratch_;
+  std::vector<bool> of_history_;  // by entry of the elements' states
   std::vector<int> differenced_;  // elements that do not offer their own tangents
   VectorX change_;
   ForceSum forces_;

@@ -44,8 +44,7 @@ void HhtTangent::begin_displaced(int j, double by, double h) {
   for (const int e : differenced_) {
     const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
     for (int k = first; k < first + count; ++k) displaced_.element_state[k] += by * now_.element_state(k, j);
-    system_.elements[e]->begin_step(displaced_.instant(), h,
-                                    system_.memory_in(e, displaced_.element_state, scratch_));
+    system_.elements[e]->begin_step(displaced_.instant(), h, system_.memory_in(e, displaced_.element_state, scratch_));
   }
 }
 
@@ -54,8 +53,7 @@ double HhtTangent::differences_by(int j, const BodyChange& bodies) const {
   double size = std::max(bodies.xi.col(j).cwiseAbs().maxCoeff(), bodies.u.col(j).cwiseAbs().maxCoeff());
   for (const int e : differenced_)
     if (const int states = system_.elements[e]->state_size(); states > 0)
-      size =
-          std::max(size, now_.element_state.col(j).segment(system_.state_offset(e), states).cwiseAbs().maxCoeff());
+      size = std::max(size, now_.element_state.col(j).segment(system_.state_offset(e), states).cwiseAbs().maxCoeff());
   return size > 0.0 && std::isfinite(size) ? kSmall / size : 0.0;
 }
 
@@ -67,8 +65,8 @@ void HhtTangent::history_by_differences(double h) {
       begin_displaced(j, sign * by, h);
       forces_.clear();
       for (const int e : differenced_)
-        system_.elements[e]->add_forces(middle_.instant(), h,
-                                        system_.memory_in(e, displaced_.element_state, scratch_), forces_);
+        system_.elements[e]->add_forces(middle_.instant(), h, system_.memory_in(e, displaced_.element_state, scratch_),
+                                        forces_);
       E_.col(j) += (sign / (2.0 * by)) * forces_.value();
     }
   }
@@ -88,8 +86,7 @@ void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDriv
   }
 }
 
-void HhtTangent::add_element(int e, int j, double h, const SideDrives& before,
-                             const SideDrives& now) {
+void HhtTangent::add_element(int e, int j, double h, const SideDrives& before, const SideDrives& now) {
   Twin& twin = twins_[j];
   const bool differing = differs(j, e);
   const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
@@ -104,6 +101,7 @@ void HhtTangent::add_element(int e, int j, double h, const SideDrives& before,
     forces_.clear();
     element.add_forces(to, h, m, forces_);
     E_.col(j) += sign * forces_.value();
+    if (!element.has_history()) continue;  // a state that only helps to compute has no derivative worth knowing
     element.end_step(to, h, m);
     for (int k = first; k < first + count; ++k) state_explicit_(k, j) += sign * displaced_.element_state[k];
   }

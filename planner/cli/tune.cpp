@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+#include "planner/cli/commands.h"
+#include "planner/cli/interrupt.h"
+#include "planner/cli/progress.h"
+#include "planner/cli/tables.h"
+#include "planner/tune_report.h"
+#include "results/files.h"
+
+namespace stillhook {
+
+int run_tune(const CommonOptions& options, const TuneArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::atomic<bool>& stop = catch_interrupts();
+  std::vector<Override> more;
+  if (options.seed) more.push_back({"plan.seed", std::to_string(*options.seed)});
+  if (arguments.evaluations) more.push_back({"tune.evaluations", std::to_string(*arguments.evaluations)});
+  if (arguments.map) more.push_back({"tune.map", std::to_string(*arguments.map)});
+  const Case c = load_case(options, more);
+  const std::string statement = statement_of(options.input);
+  const Evaluator evaluator(tuning_case(c), &stop);
+  const RunFolder folder(folder_path(options, c, "tune"),
+                         options.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh);
+  write_or_refuse([&] { write_file(folder.case_file(), case_text(c, statement)); });
+  Progress progress = stderr_progress(options.quiet);
+  TuningOptions with;
+  with.stop = &stop;
+  with.progress = [&](const std::string& stage, double share) { progress.update(share, "tune: " + stage); };
+  const GainTuning result = tune_gains(evaluator, with);
+  progress.clear();
+
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const Summary summary = tuning_summary(evaluator, result, wall.count());
+  const bool interrupted = summary.status == RunStatus::interrupted;
+  if (result.improved)
+    write_or_refuse([&] { write_file(folder.tuned(), case_text(evaluator.case_at(result.gains), statement)); });
+  if (!interrupted) write_or_refuse([&] { write_file(folder.report(), tuning_report(evaluator, result)); });
+  write_or_refuse([&] { write_summary(summary, folder.summary()); });
+  for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
+  if (options.json) {
+    fmt::print("{}\n", summary_json(summary));
+  } else {
+    fmt::print("{}\n\n{}", tuning_verdict(result), table_text(gain_table(evaluator, result)));
+    for (const ReportTable& table : {swing_table(result), winch_table(result)})
+      if (!table.rows.empty()) fmt::print("\n{}", table_text(table));
+    if (result.improved) fmt::print("\nTuned case: {}\n", folder.tuned());
+    if (!interrupted) fmt::print("Report: {}\n", folder.report());
+  }
+  if (interrupted) {
+    spdlog::warn("interrupted; the best gains so far are kept");
+    return kInterrupted;
+  }
+  if (!result.baseline.usable && !result.tuned.usable) return kNumericalFailure;
+  return result.tuned.violation() > 0.0 ? kLimitViolated : kDone;
+}
+
+}  // namespace stillhook

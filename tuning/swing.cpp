@@ -1,0 +1,237 @@
+#include "tuning/swing.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "sim/lifting/line.h"
+#include "sim/lifting/tagline.h"
+#include "sim/modes.h"
+#include "sim/multibody/hht_tangent.h"
+#include "sim/simulate.h"
+#include "sim/statics.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kCalm = -1.0;  // s, before the waves start
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPullShare = 0.5;  // of a cycle in which a line that only pulls acts
+
+Specification without_taglines(Specification specification) {
+  for (TaglineSpec& line : specification.taglines) line.active = false;
+  return specification;
+}
+
+Specification in_calm_water(Specification specification) {
+  SeaStateSpec calm;
+  calm.name = "calm";
+  specification.sea.states.push_back(calm);
+  specification.sea.active = calm.name;
+  return specification;
+}
+
+SystemState settled(const Model& model, const StaticPose& pose, int phase) {
+  SystemState state = model.initial_state();
+  for (std::size_t d = 0; d < pose.drives.size(); ++d) state.drive[d] = {pose.drives[d], 0.0};
+  state.phase = phase;
+  solve_static(model, state, {}, "poses." + pose.name);
+  return state;
+}
+
+/// Stiffness and damping of the taglines' linear equivalent, added to K = dQ/dxi and C = dQ/du.
+void add_taglines(const Model& with_lines, const SystemState& state, JacobianSum& out) {
+  const Instant now = state.instant();
+  for (const auto& element : with_lines.system().elements) {
+    const auto* line = dynamic_cast<const Tagline*>(element.get());
+    if (!line || !line->options().active || state.phase < line->options().active_from_phase) continue;
+    const TaglineOptions& o = line->options();
+    const LineMotion at = line_motion(o.to, o.from, now);
+    for (const PlaneAngle::Gradient& g : line->angle().gradient(now)) {
+      const Eigen::Matrix<double, 3, 6> A = -kPullShare * at.e * (o.kp * g.angle_xi + o.kd * g.rate_xi);
+      const Eigen::Matrix<double, 3, 6> B = -kPullShare * at.e * (o.kd * g.rate_u);
+      add_force_jacobian(o.to, now, Vector3::Zero(), g.body, A, B, false, out);
+      add_force_jacobian(o.from, now, Vector3::Zero(), g.body, -A, -B, false, out);
+    }
+  }
+}
+
+/// Damping ratio of the eigenvalue nearest to i w.
+double damping_near(const MatrixX& M, const MatrixX& C, const MatrixX& K, double w) {
+  const Eigen::Index n = M.rows();
+  const auto solver = M.ldlt();
+  MatrixX A = MatrixX::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.bottomLeftCorner(n, n) = solver.solve(K);  // K and C are derivatives of the force: negative for a spring
+  A.bottomRightCorner(n, n) = solver.solve(C);
+  const Eigen::VectorXcd s = Eigen::EigenSolver<MatrixX>(A, false).eigenvalues();
+  std::complex<double> best(0.0, 0.0);
+  double distance = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& value : s) {
+    const double d = std::abs(value - std::complex<double>(0.0, w));
+    if (value.imag() > 0.0 && d < distance) {
+      distance = d;
+      best = value;
+    }
+  }
+  return std::isfinite(distance) ? -best.real() / std::abs(best) : kNaN;
+}
+
+class HangingPose {
+ public:
+  HangingPose(const Model& free, const Model& lines, const StaticPose& pose, int phase)
+      : free_(free), lines_(lines), name_(pose.name), analysis_(free), state_(settled(free, pose, phase)) {
+    modes_ = analysis_.at(state_);
+    SystemState calm = state_;
+    calm.t = kCalm;
+    SystemWorkspace work = free.system().make_workspace();
+    VectorX Q;
+    free.system().forces(calm, 0.0, work, Q);
+    free.system().jacobian(calm, 0.0, work);
+    K_ = work.jacobian.stiffness();
+    C_ = work.jacobian.damping();
+    JacobianSum sum(static_cast<int>(calm.body.size()));
+    add_taglines(lines, calm, sum);
+    K_lines_ = K_ + sum.stiffness();
+    C_lines_ = C_ + sum.damping();
+    MatrixX C_q;
+    free.system().constraint_jacobian(calm, C_q);
+    Z_ = MatrixX::Identity(K_.rows(), K_.rows());
+    if (C_q.rows() > 0)
+      Z_ = MatrixX(Eigen::HouseholderQR<MatrixX>(C_q.transpose()).householderQ()).rightCols(K_.rows() - C_q.rows());
+  }
+
+  SwingMode swing(int load, int axis, const SwingOptions& options) const {
+    const Mode& mode = *std::max_element(modes_.begin(), modes_.end(), [&](const Mode& a, const Mode& b) {
+      return a.share[6 * load + axis] < b.share[6 * load + axis];
+    });
+    SwingMode s;
+    s.pose = name_;
+    s.direction = axis == 0 ? "fore-aft" : "athwart";
+    s.label = mode.label;
+    s.period = mode.period;
+    const MatrixX M = Z_.transpose() * analysis_.mass_at(mode.frequency) * Z_;
+    const auto ratio = [&](const MatrixX& C, const MatrixX& K) {
+      return damping_near(M, Z_.transpose() * C * Z_, Z_.transpose() * K * Z_, mode.frequency);
+    };
+    s.linear_free = ratio(C_, K_);
+    s.linear_lines = ratio(C_lines_, K_lines_);
+    s.decay_free = s.decay_lines = kNaN;
+    if (!options.simulate) return s;
+    s.decay_free = decay(free_, mode, axis, options);
+    s.decay_lines = decay(lines_, mode, axis, options);
+    return s;
+  }
+
+ private:
+  /// An operation that brings every drive where it stands at once, in the first phase, and then waits in this phase.
+  Operation waiting(const Model& model, double time) const {
+    Operation operation;
+    const auto& phases = model.specification().operation.phases;
+    for (int i = 0; i <= state_.phase; ++i) {
+      Phase phase;
+      phase.name = phases[static_cast<std::size_t>(i)].name;
+      phase.stage = phases[static_cast<std::size_t>(i)].stage;
+      phase.duration = i == state_.phase ? time : 0.0;
+      for (std::size_t d = 0; i == 0 && d < state_.drive.size(); ++d) {
+        if (state_.drive[d].position == 0.0) continue;
+        Move move;
+        move.drive = static_cast<int>(d);
+        ProfileSpec step;
+        step.shape = ProfileSpec::Shape::trapezoid;
+        step.ramp = 0.0;
+        move.profile = RateProfile(step, state_.drive[d].position, kAtOnce * std::abs(state_.drive[d].position));
+        move.background = true;
+        phase.moves.push_back(move);
+      }
+      operation.phases.push_back(phase);
+    }
+    return operation;
+  }
+
+  double decay(const Model& model, const Mode& mode, int axis, const SwingOptions& options) const {
+    StaticPose here;
+    here.name = name_;
+    for (const DriveState& d : state_.drive) here.drives.push_back(d.position);
+    SystemState state = settled(model, here, state_.phase);
+    // The displaced load is let go a moment after the drives' jump.
+    state.t = 0.0;
+    double length = 0.0;
+    for (const WireSpec& w : model.specification().wires) {
+      if (w.role != WireSpec::Role::hoist) continue;
+      const auto values = channel_values(model, state);
+      length = std::max(length, values.at(w.name + ".length"));
+    }
+    BodyChange shape{mode.shape, VectorX::Zero(mode.shape.size())};
+    displace_bodies(shape, 0, options.amplitude * length, state.body);
+    SystemWorkspace work = model.system().make_workspace();
+    model.system().start_elements(state, work);
+    RunOptions run_with;
+    run_with.from = &state;
+    const double time = (options.swings + 1.5) * mode.period;
+    const Trajectory run = simulate(model, waiting(model, time), run_with);
+    return run.status == RunStatus::completed ? decrement(model, run, axis, options.swings) : kNaN;
+  }
+
+  /// Of the mean lead of the hoist wires: peaks of one sign, from the first after the release on.
+  static double decrement(const Model& model, const Trajectory& run, int axis, int swings) {
+    std::vector<double> lead(run.time.size(), 0.0);
+    int wires = 0;
+    for (const WireSpec& w : model.specification().wires) {
+      if (w.role != WireSpec::Role::hoist) continue;
+      const int c = run.find(w.name + (axis == 0 ? ".off_lead" : ".side_lead"));
+      for (std::size_t i = 0; i < lead.size(); ++i) lead[i] += run.values[static_cast<std::size_t>(c)][i];
+      ++wires;
+    }
+    if (wires == 0) return kNaN;
+    std::vector<double> highs, lows;
+    for (std::size_t i = 1; i + 1 < lead.size(); ++i) {
+      if (lead[i] > lead[i - 1] && lead[i] >= lead[i + 1]) highs.push_back(lead[i] / wires);
+      if (lead[i] < lead[i - 1] && lead[i] <= lead[i + 1]) lows.push_back(lead[i] / wires);
+    }
+    const std::size_t n = static_cast<std::size_t>(swings);
+    if (highs.size() < n || lows.size() < n) return kNaN;
+    // Peak to peak, which a shifted middle does not disturb.
+    const double first = highs[0] - lows[0], last = highs[n - 1] - lows[n - 1];
+    if (!(last > 0.0) || !(first > 0.0)) return kNaN;
+    const double d = std::log(first / last) / (2.0 * std::numbers::pi * static_cast<double>(n - 1));
+    return d / std::sqrt(1.0 + d * d);
+  }
+
+  static constexpr double kAtOnce = 1e9;  // travels per s
+  const Model& free_;
+  const Model& lines_;
+  std::string name_;
+  ModalAnalysis analysis_;
+  SystemState state_;
+  std::vector<Mode> modes_;
+  MatrixX K_, C_, K_lines_, C_lines_, Z_;
+};
+
+}  // namespace
+
+std::vector<SwingMode> swing_modes(const Specification& specification, const SwingOptions& options) {
+  const Specification calm = in_calm_water(specification);
+  const Model lines = build_model(calm), free = build_model(without_taglines(calm));
+  const Operation operation = build_operation(lines);
+  const int load = lines.body_index(specification.operation.load);
+  std::vector<SwingMode> modes;
+  for (std::size_t p = 0; p < operation.phases.size(); ++p) {
+    if (operation.phases[p].stage != PhaseSpec::Stage::hanging) continue;
+    const bool connected =
+        std::any_of(lines.system().elements.begin(), lines.system().elements.end(), [&](const auto& e) {
+          const auto* line = dynamic_cast<const Tagline*>(e.get());
+          return line && line->options().active && static_cast<int>(p) >= line->options().active_from_phase;
+        });
+    if (!connected) continue;
+    const HangingPose pose(free, lines, operation.static_poses[p + 1], static_cast<int>(p));
+    for (const int axis : {0, 1}) modes.push_back(pose.swing(load, axis, options));
+  }
+  return modes;
+}
+
+}  // namespace stillhook
