@@ -70,14 +70,29 @@ DisplacedStart::Coordinates coordinates_of(const RecordModel& model, const Vecto
   return q;
 }
 
-/// How the reference state changes with the keys: what a run of one step leaves of it. Rest stays rest, so positions
-/// are right to the order of the step squared, and velocities are none.
-MatrixX reference_tangent(const RecordModel& model, const Case& c) {
-  TangentRequest request;
-  request.keys = model.keys;
-  request.until = c.specification.solver.time_step;
-  const TangentRun run = run_with_tangents(c, request);
-  return run.tangents.end_state.leftCols(static_cast<Eigen::Index>(model.keys.size()));
+/// Centre of gravity of a body with a key moved to either side; the case's own for keys that do not move it.
+std::array<Vector3, 2> cogs_of(const Case& c, const std::string& key, double width, std::size_t body) {
+  const Vector3& now = c.specification.bodies[body].cog;
+  if (key.find("cog_m") == std::string::npos) return {now, now};
+  const double x = key_value(c, key);
+  return {with_values(c, {{key, x - 0.5 * width}}).specification.bodies[body].cog,
+          with_values(c, {{key, x + 0.5 * width}}).specification.bodies[body].cog};
+}
+
+/// How the reference state changes with the keys: a column each, from the static poses on either side.
+MatrixX reference_tangent(const RecordModel& model, const Case& c, const SystemState& reference, const TangentRun& run) {
+  MatrixX D = MatrixX::Zero(change_size(reference), static_cast<Eigen::Index>(model.keys.size()));
+  for (std::size_t j = 0; j < model.keys.size(); ++j) {
+    const double width = run.widths[j];
+    const std::vector<Pose>&low = run.static_poses[j][0].front().bodies, &high = run.static_poses[j][1].front().bodies;
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(j), row = static_cast<Eigen::Index>(6 * i);
+      const std::array<Vector3, 2> cog = cogs_of(c, model.keys[j], width, i);
+      D.block<3, 1>(row, column) = (high[i] * cog[1] - low[i] * cog[0]) / width;
+      D.block<3, 1>(row + 3, column) = log_rotation(low[i].R.transpose() * high[i].R) / width;
+    }
+  }
+  return D;
 }
 
 }  // namespace
@@ -102,22 +117,32 @@ Case case_at(const RecordModel& model, const VectorX& values) {
   return with_values(model.base, changes);
 }
 
-RecordStart record_start(const RecordModel& model, const Case& at, const VectorX& own, bool derivatives) {
+RecordStart record_start(const RecordModel& model, const Case& at, const VectorX& own) {
   RecordStart start;
   if (model.body < 0) return start;
-  const Model reference = built(at);
-  const SystemState& rest = reference.initial_state();
-  const DisplacedStart displaced(reference.system(), model.body);
-  const DisplacedStart::Coordinates q = coordinates_of(model, own);
-  start.from = displaced.state(rest, q);
-  if (!derivatives) return start;
-  const auto keys = static_cast<Eigen::Index>(model.keys.size());
-  start.by = MatrixX::Zero(change_size(rest), keys + static_cast<Eigen::Index>(model.free.size()));
-  start.by.leftCols(keys) = displaced.carried(rest, q, reference_tangent(model, at));
-  const MatrixX by_q = displaced.by_coordinates(rest, q);
-  for (std::size_t i = 0; i < model.free.size(); ++i)
-    start.by.col(keys + static_cast<Eigen::Index>(i)) = by_q.col(model.free[i]);
+  start.model = std::make_shared<const Model>(built(at));
+  start.q = coordinates_of(model, own);
+  start.from = DisplacedStart(start.model->system(), model.body).state(start.model->initial_state(), start.q);
   return start;
+}
+
+MatrixX start_tangent(const RecordModel& model, const Case& at, const RecordStart& start, const TangentRun& run) {
+  const SystemState& rest = start.model->initial_state();
+  const DisplacedStart displaced(start.model->system(), model.body);
+  const auto keys = static_cast<Eigen::Index>(model.keys.size());
+  MatrixX by = MatrixX::Zero(change_size(rest), keys + static_cast<Eigen::Index>(model.free.size()));
+  by.leftCols(keys) = displaced.carried(rest, start.q, reference_tangent(model, at, rest, run));
+  const MatrixX by_q = displaced.by_coordinates(rest, start.q);
+  for (std::size_t i = 0; i < model.free.size(); ++i) by.col(keys + static_cast<Eigen::Index>(i)) = by_q.col(model.free[i]);
+  return by;
+}
+
+TangentRun tangent_run(const Case& at, const TangentRequest& request, const RunOptions& options) {
+  try {
+    return run_with_tangents(at, request, options);
+  } catch (const SpecificationError& error) {
+    throw located(at, error);
+  }
 }
 
 Case record_case(const Case& c, const FitRecordSpec& spec) {
@@ -145,6 +170,7 @@ RecordModel record_model(const Case& c, const FitRecordSpec& spec) {
   for (std::size_t i = 0; i < c.fit.parameters.size(); ++i) {
     if (!matters(c.fit.parameters[i].key, m.base.specification.sea.active)) continue;
     m.keys.push_back(c.fit.parameters[i].key);
+    m.ranges.push_back(c.fit.parameters[i].upper - c.fit.parameters[i].lower);
     m.parameters.push_back(static_cast<int>(i));
   }
   if (!spec.free_body.empty()) {
@@ -163,10 +189,11 @@ Prediction predict(const RecordModel& model, const VectorX& values, const Vector
   if (derivatives) request.keys = model.keys;
   for (const MeasuredChannel& channel : model.data.channels) request.channels.push_back(channel.spec.channel);
   const auto keys = static_cast<Eigen::Index>(model.keys.size());
-  const RecordStart start = record_start(model, c, own, derivatives);
+  if (derivatives) request.ranges = model.ranges;
+  const RecordStart start = record_start(model, c, own);
   request.from = start.from;
-  request.by_initial_state = start.by.size() > 0;
-  const TangentRun run = run_with_tangents(c, request, options);
+  request.by_initial_state = derivatives && start.from;
+  const TangentRun run = tangent_run(c, request, options);
   Prediction p;
   p.message = run.trajectory.message;
   const Interpolation at(run.trajectory.time, model.data.time);
@@ -179,6 +206,7 @@ Prediction predict(const RecordModel& model, const VectorX& values, const Vector
     return p;
   }
   p.ok = true;
+  const MatrixX by = derivatives && start.from ? start_tangent(model, c, start, run) : MatrixX();
   for (std::size_t k = 0; k < model.data.channels.size(); ++k) {
     const auto channel = static_cast<std::size_t>(run.trajectory.find(request.channels[k]));
     const std::vector<double>& series = run.trajectory.values[channel];
@@ -190,8 +218,7 @@ Prediction predict(const RecordModel& model, const VectorX& values, const Vector
     const MatrixX simulated = at(run.tangents.values[k]);
     MatrixX& tangent = p.tangent.emplace_back(MatrixX::Zero(simulated.rows(), keys + model.own()));
     tangent.leftCols(keys) = simulated.leftCols(keys);
-    if (start.by.size() > 0)
-      tangent.leftCols(start.by.cols()) += simulated.rightCols(simulated.cols() - keys) * start.by;
+    if (by.size() > 0) tangent.leftCols(by.cols()) += simulated.rightCols(simulated.cols() - keys) * by;
     if (offset != model.offsets.end()) tangent.col(keys + place).setOnes();
   }
   return p;

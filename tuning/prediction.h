@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "problems/case.h"
@@ -17,6 +18,7 @@ struct RecordModel {
   Case base;                      // the case as it was during the record
   MeasuredRecord data;
   std::vector<std::string> keys;  // of the fit's parameters, those that matter here ...
+  std::vector<double> ranges;     // upper less lower bound of each
   std::vector<int> parameters;    // ... and which they are
   int body = -1;                  // whose start is estimated, -1 none
   std::vector<int> free;          // coordinates of DisplacedStart that are estimated
@@ -47,10 +49,17 @@ Case case_at(const RecordModel& model, const VectorX& values);
 
 /// Where a record's simulation begins.
 struct RecordStart {
-  std::optional<SystemState> from;  // absent: as the case does, derivatives included
-  MatrixX by;  // of `from` by (keys, free); empty without derivatives
+  std::shared_ptr<const Model> model;  // as built; null when the run begins as the case does, derivatives included
+  DisplacedStart::Coordinates q = DisplacedStart::Coordinates::Zero();
+  std::optional<SystemState> from;
 };
-RecordStart record_start(const RecordModel& model, const Case& at, const VectorX& own, bool derivatives);
+RecordStart record_start(const RecordModel& model, const Case& at, const VectorX& own);
+
+/// The change of `from` by (keys, free coordinates), with what `run`, a run from there, tells of the equilibria.
+MatrixX start_tangent(const RecordModel& model, const Case& at, const RecordStart& start, const TangentRun& run);
+
+/// run_with_tangents() with errors told as those of the case.
+TangentRun tangent_run(const Case& at, const TangentRequest& request, const RunOptions& options);
 
 /// `values`: of the keys, in their units; `own`: of the record's own unknowns, SI. Throws CaseError when the lift cannot
 /// be built with these values.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace stillhook {
 namespace {
@@ -67,6 +66,19 @@ MatrixX moved_tangent(const SystemState& state, const VectorX& delta) {
 
 }  // namespace
 
+/// Which of a unit's blocks are what; -1 none.
+struct SegmentPlace {
+  int own = -1, begin = -1, next = -1;
+};
+
+struct SegmentSettings {
+  const FitParameters* parameters;
+  std::vector<double> sigma;
+  double weight;
+  RunOptions options;
+  SegmentPlace place;
+};
+
 SegmentedRecord::SegmentedRecord(const RecordModel& model, int segments) : record_(model) {
   const MeasuredRecord& data = model.data;
   const double step = model.base.specification.solver.time_step;
@@ -77,14 +89,13 @@ SegmentedRecord::SegmentedRecord(const RecordModel& model, int segments) : recor
     times_.push_back(std::round(data.end() * k / segments / step) * step);
   times_.back() = data.end() + 4.0 * step;
   for (int k = 0; k < segments; ++k) {
-    Part part{model, {}, {}};
+    Part part{model, {}};
     MeasuredRecord& own = part.model.data;
     own.time.clear();
     for (MeasuredChannel& channel : own.channels) channel.value.clear();
     for (std::size_t i = 0; i < data.time.size(); ++i) {
       if (data.time[i] < times_[static_cast<std::size_t>(k)] || data.time[i] >= times_[static_cast<std::size_t>(k) + 1])
         continue;
-      part.sample.push_back(i);
       own.time.push_back(data.time[i]);
       for (std::size_t c = 0; c < own.channels.size(); ++c) own.channels[c].value.push_back(data.channels[c].value[i]);
     }
@@ -99,11 +110,11 @@ SegmentedRecord::SegmentedRecord(const RecordModel& model, int segments) : recor
 void SegmentedRecord::lay_out(const VectorX& values, const VectorX& own, const RunOptions& options) {
   const Case c = case_at(record_, values);
   TangentRequest request;
-  request.from = record_start(record_, c, own, false).from;
+  request.from = record_start(record_, c, own).from;
   begins_.assign(static_cast<std::size_t>(segments()), {});
   for (std::size_t k = 0; k + 1 < begins_.size(); ++k) {
     request.until = times_[k + 1];
-    const TangentRun run = run_with_tangents(c, request, options);
+    const TangentRun run = tangent_run(c, request, options);
     SystemState end = run.tangents.end;
     if (run.trajectory.status != RunStatus::completed) {
       if (!request.from) throw CaseError(record_.data.name + ": cannot be simulated: " + run.trajectory.message);
@@ -138,107 +149,154 @@ void SegmentedRecord::take_from(const FitProblem& problem, int first_block) {
     begins_[k] = moved(begins_[k], problem.blocks[static_cast<std::size_t>(first_block) + k - 1].value.cwiseProduct(spread_));
 }
 
+/// One segment at given blocks: its simulation, and where its residuals and derivatives go.
+class SegmentEvaluation {
+ public:
+  SegmentEvaluation(const SegmentedRecord& record, std::size_t k, const SegmentSettings& settings,
+                    const std::vector<VectorX>& x)
+      : record_(record.record_), segment_(record), k_(k), settings_(settings), x_(x), keys_(record_.keys.size()) {}
+
+  bool run(VectorX& r, std::vector<MatrixX>& J) {
+    simulate();
+    const MeasuredRecord& data = part().model.data;
+    if (run_.trajectory.status != RunStatus::completed || !run_.tangents.valid) return false;
+    const Interpolation at(run_.trajectory.time, data.time);
+    if (!at.complete()) return false;
+    const auto samples = static_cast<Eigen::Index>(part().index.size());
+    r = VectorX::Zero(samples + (place().next < 0 ? 0 : segment_.spread_.size()));
+    J.assign(x_.size(), MatrixX());
+    for (std::size_t b = 0; b < x_.size(); ++b) J[b] = MatrixX::Zero(r.size(), x_[b].size());
+    add_samples(at, r, J);
+    if (place().next >= 0) add_ties(samples, r, J);
+    return true;
+  }
+
+ private:
+  const SegmentedRecord::Part& part() const { return segment_.parts_[k_]; }
+  const SegmentPlace& place() const { return settings_.place; }
+  VectorX own() const { return place().own < 0 ? VectorX() : x_[static_cast<std::size_t>(place().own)]; }
+
+  void simulate() {
+    const Case c = case_at(record_, settings_.parameters->of(record_, settings_.parameters->values(x_[0])));
+    TangentRequest request;
+    request.keys = record_.keys;
+    request.ranges = record_.ranges;
+    for (const MeasuredChannel& channel : record_.data.channels) request.channels.push_back(channel.spec.channel);
+    request.until = segment_.times_[k_ + 1];
+    RecordStart start;
+    VectorX delta;
+    if (k_ == 0) {
+      start = record_start(record_, c, own());
+      request.from = start.from;
+    } else {
+      delta = x_[static_cast<std::size_t>(place().begin)].cwiseProduct(segment_.spread_);
+      request.from = moved(segment_.begins_[k_], delta);
+    }
+    request.by_initial_state = request.from.has_value();
+    run_ = tangent_run(c, request, settings_.options);
+    if (k_ > 0)
+      by_ = moved_tangent(segment_.begins_[k_], delta) * segment_.spread_.asDiagonal();
+    else if (start.from)
+      by_ = start_tangent(record_, c, start, run_);
+  }
+
+  /// A row of derivatives by (keys, beginning) into the blocks, through what the beginning depends on.
+  void add_row(Eigen::Index row, const Eigen::Ref<const Eigen::RowVectorXd>& d, double weight,
+               std::vector<MatrixX>& J) const {
+    add_keys(row, d.head(static_cast<Eigen::Index>(keys_)), weight, J);
+    if (by_.size() == 0) return;
+    const Eigen::RowVectorXd through = d.tail(by_.rows()) * by_;
+    if (k_ > 0) {
+      J[static_cast<std::size_t>(place().begin)].row(row) += weight * through;
+      return;
+    }
+    const auto free = by_.cols() - static_cast<Eigen::Index>(keys_);
+    add_keys(row, through.head(static_cast<Eigen::Index>(keys_)), weight, J);
+    J[static_cast<std::size_t>(place().own)].row(row).head(free) += weight * through.tail(free);
+  }
+
+  void add_keys(Eigen::Index row, const Eigen::RowVectorXd& d, double weight, std::vector<MatrixX>& J) const {
+    for (std::size_t j = 0; j < keys_; ++j)
+      J[0](row, record_.parameters[j]) += weight * d[static_cast<Eigen::Index>(j)] * record_.ranges[j];
+  }
+
+  void add_samples(const Interpolation& at, VectorX& r, std::vector<MatrixX>& J) const {
+    std::vector<VectorX> value;
+    std::vector<MatrixX> tangent;
+    for (std::size_t k = 0; k < record_.data.channels.size(); ++k) {
+      const int channel = run_.trajectory.find(record_.data.channels[k].spec.channel);
+      const std::vector<double>& series = run_.trajectory.values[static_cast<std::size_t>(channel)];
+      value.push_back(at(Eigen::Map<const VectorX>(series.data(), static_cast<Eigen::Index>(series.size()))));
+      tangent.push_back(at(run_.tangents.values[k]));
+    }
+    for (std::size_t n = 0; n < part().index.size(); ++n) {
+      const auto row = static_cast<Eigen::Index>(n);
+      const int channel = part().index.channel[n];
+      const auto k = static_cast<std::size_t>(channel);
+      const Eigen::Index i = part().index.sample[n];
+      const double weight = 1.0 / settings_.sigma[k];
+      r[row] = weight * (value[k][i] - part().model.data.channels[k].value[static_cast<std::size_t>(i)]);
+      add_row(row, tangent[k].row(i), weight, J);
+      const auto offset = std::find(record_.offsets.begin(), record_.offsets.end(), channel);
+      if (offset == record_.offsets.end()) continue;
+      const auto at_own = static_cast<Eigen::Index>(record_.free.size()) + (offset - record_.offsets.begin());
+      r[row] += weight * own()[at_own];
+      J[static_cast<std::size_t>(place().own)](row, at_own) += weight;
+    }
+  }
+
+  void add_ties(Eigen::Index first, VectorX& r, std::vector<MatrixX>& J) const {
+    const auto next = static_cast<std::size_t>(place().next);
+    const SystemState beginning = moved(segment_.begins_[k_ + 1], x_[next].cwiseProduct(segment_.spread_));
+    const VectorX gap = difference(beginning, run_.tangents.end);
+    for (Eigen::Index i = 0; i < gap.size(); ++i) {
+      const double weight = settings_.weight / segment_.spread_[i];
+      r[first + i] = weight * gap[i];
+      add_row(first + i, run_.tangents.end_state.row(i), weight, J);
+      J[next](first + i, i) = -settings_.weight;  // turns of a gap that closes are small
+    }
+  }
+
+  const RecordModel& record_;
+  const SegmentedRecord& segment_;
+  std::size_t k_;
+  const SegmentSettings& settings_;
+  const std::vector<VectorX>& x_;
+  std::size_t keys_;
+  TangentRun run_;
+  MatrixX by_;  // d(beginning)/d(keys, free coordinates) for the first segment, d/d(its block) for the others
+};
+
 void SegmentedRecord::add_to(FitProblem& problem, const FitParameters& parameters, const std::vector<double>& sigma,
                              int own_block, double weight, const RunOptions& options) const {
   const int first_block = static_cast<int>(problem.blocks.size());
-  const bool has_own = record_.own() > 0;
   for (std::size_t k = 1; k < begins_.size(); ++k) problem.blocks.push_back({VectorX::Zero(spread_.size()), {}, {}, false});
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const Part& part = parts_[k];
     const bool last = k + 1 == parts_.size();
     FitUnit unit;
-    unit.blocks = {0};
-    if (has_own) unit.blocks.push_back(own_block);
-    const int begin = k > 0 ? static_cast<int>(unit.blocks.size()) : -1;
-    if (k > 0) unit.blocks.push_back(first_block + static_cast<int>(k) - 1);
+    SegmentSettings settings{&parameters, sigma, weight, options, {}};
     FitGroup data, ties;
-    for (std::size_t i = 0; i < unit.blocks.size(); ++i) data.uses.push_back(static_cast<int>(i));
-    const int next = last ? -1 : static_cast<int>(unit.blocks.size());
-    if (!last) unit.blocks.push_back(first_block + static_cast<int>(k));
-    for (std::size_t i = 0; i < unit.blocks.size(); ++i) ties.uses.push_back(static_cast<int>(i));
-    data.count = static_cast<int>(part.index.size());
-    ties.count = last ? 0 : static_cast<int>(spread_.size());
+    const auto add = [&unit, &data, &ties](int block) {
+      unit.blocks.push_back(block);
+      const int at = static_cast<int>(unit.blocks.size()) - 1;
+      data.uses.push_back(at);
+      ties.uses.push_back(at);
+      return at;
+    };
+    add(0);
+    if (record_.own() > 0) settings.place.own = add(own_block);
+    if (k > 0) settings.place.begin = add(first_block + static_cast<int>(k) - 1);
+    data.count = static_cast<int>(parts_[k].index.size());
+    if (!last) {
+      unit.blocks.push_back(first_block + static_cast<int>(k));
+      settings.place.next = static_cast<int>(unit.blocks.size()) - 1;
+      ties.uses.push_back(settings.place.next);
+      ties.count = static_cast<int>(spread_.size());
+    }
     ties.robust = false;
     unit.groups = {data, ties};
-    const VectorX span = parameters.span();
-    unit.evaluate = [this, k, &part, &parameters, sigma, weight, options, span, has_own, begin, next](
-                        const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J) {
-      const VectorX own = has_own ? x[1] : VectorX();
-      const Case c = case_at(record_, parameters.of(record_, parameters.values(x[0])));
-      TangentRequest request;
-      request.keys = record_.keys;
-      for (const MeasuredChannel& channel : part.model.data.channels) request.channels.push_back(channel.spec.channel);
-      request.until = times_[k + 1];
-      const auto keys = static_cast<Eigen::Index>(record_.keys.size());
-      // d(beginning)/d(keys, free coordinates) for the first segment, d/d(its block) for the others.
-      MatrixX by;
-      if (k == 0) {
-        const RecordStart start = record_start(record_, c, own, true);
-        request.from = start.from;
-        by = start.by;
-      } else {
-        const VectorX delta = x[static_cast<std::size_t>(begin)].cwiseProduct(spread_);
-        request.from = moved(begins_[k], delta);
-        by = moved_tangent(begins_[k], delta) * spread_.asDiagonal();
-      }
-      request.by_initial_state = by.size() > 0;
-      const TangentRun run = run_with_tangents(c, request, options);
-      if (run.trajectory.status != RunStatus::completed || !run.tangents.valid) return false;
-      const Interpolation at(run.trajectory.time, part.model.data.time);
-      if (!at.complete()) return false;
-      const auto samples = static_cast<Eigen::Index>(part.index.size());
-      const Eigen::Index ties_count = next < 0 ? 0 : spread_.size();
-      r = VectorX::Zero(samples + ties_count);
-      J.assign(x.size(), MatrixX());
-      for (std::size_t b = 0; b < x.size(); ++b) J[b] = MatrixX::Zero(r.size(), x[b].size());
-      const auto spread_out = [&](Eigen::Index row, const Eigen::Ref<const Eigen::RowVectorXd>& d, double w) {
-        for (Eigen::Index j = 0; j < keys; ++j) {
-          const int parameter = record_.parameters[static_cast<std::size_t>(j)];
-          J[0](row, parameter) += w * d[j] * span[parameter];
-        }
-        if (by.size() == 0) return;
-        const Eigen::RowVectorXd through = d.tail(by.rows()) * by;
-        if (k > 0) {
-          J[static_cast<std::size_t>(begin)].row(row) += w * through;
-          return;
-        }
-        for (Eigen::Index j = 0; j < keys; ++j) {
-          const int parameter = record_.parameters[static_cast<std::size_t>(j)];
-          J[0](row, parameter) += w * through[j] * span[parameter];
-        }
-        J[1].row(row).head(by.cols() - keys) += w * through.tail(by.cols() - keys);
-      };
-      std::vector<VectorX> value;
-      std::vector<MatrixX> tangent;
-      for (std::size_t channel = 0; channel < request.channels.size(); ++channel) {
-        const auto& series = run.trajectory.values[static_cast<std::size_t>(run.trajectory.find(request.channels[channel]))];
-        value.push_back(at(Eigen::Map<const VectorX>(series.data(), static_cast<Eigen::Index>(series.size()))));
-        tangent.push_back(at(run.tangents.values[channel]));
-      }
-      for (Eigen::Index row = 0; row < samples; ++row) {
-        const int channel = part.index.channel[static_cast<std::size_t>(row)];
-        const auto which = static_cast<std::size_t>(channel);
-        const Eigen::Index i = part.index.sample[static_cast<std::size_t>(row)];
-        const double w = 1.0 / sigma[which];
-        r[row] = w * (value[which][i] - part.model.data.channels[which].value[static_cast<std::size_t>(i)]);
-        spread_out(row, tangent[which].row(i), w);
-        const auto offset = std::find(record_.offsets.begin(), record_.offsets.end(), channel);
-        if (offset == record_.offsets.end()) continue;
-        const auto place = static_cast<Eigen::Index>(record_.free.size()) + (offset - record_.offsets.begin());
-        r[row] += w * own[place];
-        J[1](row, place) += w;
-      }
-      if (next < 0) return true;
-      const SystemState beginning =
-          moved(begins_[k + 1], x[static_cast<std::size_t>(next)].cwiseProduct(spread_));
-      const VectorX gap = difference(beginning, run.tangents.end);
-      for (Eigen::Index i = 0; i < ties_count; ++i) {
-        const double w = weight / spread_[i];
-        r[samples + i] = w * gap[i];
-        spread_out(samples + i, run.tangents.end_state.row(i), w);
-        J[static_cast<std::size_t>(next)](samples + i, i) = -weight;  // turns of a gap that closes are small
-      }
-      return true;
+    unit.evaluate = [this, k, settings](const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J) {
+      return SegmentEvaluation(*this, k, settings, x).run(r, J);
     };
     problem.units.push_back(std::move(unit));
   }

@@ -30,10 +30,10 @@ class SegmentedRecord {
   int segments() const { return static_cast<int>(times_.size()) - 1; }
 
  private:
+  friend class SegmentEvaluation;
   struct Part {
     RecordModel model;  // with the samples of the segment
     SampleIndex index;
-    std::vector<std::size_t> sample;  // of the record, by sample of the segment
   };
   void scale_beginnings();
 
