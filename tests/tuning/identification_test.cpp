@@ -111,30 +111,32 @@ TEST_CASE("several runs together: decay, waves, static pull; sensor offset", "[f
   CHECK(std::abs(r.records[0].own.back().value) < 4.0 * r.records[0].own.back().sd);
 }
 
-TEST_CASE("multiple shooting finds its way where single shooting does not", "[fit][multiple]") {
+TEST_CASE("multiple shooting finds its way where single shooting does not", "[fit][multiple][slow]") {
   const TemporaryFolder folder;
   const std::string stiffness = "moorings.*.stiffness_kN_per_m";
-  const Case truth = case_of(buoy_text());
-  const std::string file = folder.write(
-      "surge.csv", measured(truth, {{"buoy.x", 0.02}}, (Vector6() << 4.0, 0, 0, 0, 0, 0).finished(), 300.0, 5));
+  // 27 periods: a stiffness that is 10 % off is out of phase by one and a half of them at the end.
+  const std::vector<Override> stiff = {{stiffness, "200.0"}};
+  const std::string file = folder.write("surge.csv", measured(case_of(buoy_text(), stiff), {{"buoy.x", 0.02}},
+                                                              (Vector6() << 4.0, 0, 0, 0, 0, 0).finished(), 300.0, 5));
   const auto fit_from = [&](double start, const std::string& shooting) {
     return identify(case_of(buoy_text() + "[fit]\nshooting = \"" + shooting + "\"\nsegments = 12\n" +
-                            parameter(stiffness, 1.0, 100.0, fmt::format("start = {:.10}", start)) +
+                            parameter(stiffness, 10.0, 1000.0, fmt::format("start = {:.10}", start)) +
                             parameter("bodies.buoy.hydrodynamics.linear_damping_kN_s_per_m.0", 0.0, 200.0) +
                             record("surge", file, "decay", "free_body = \"buoy\"\nfree = \"x, vx\"\n") +
-                            column("buoy.x", "m")));
+                            column("buoy.x", "m"),
+                            stiff));
   };
   // 70 % too low to 100 % too high.
-  for (const double start : {6.0, 12.0, 30.0, 40.0}) {
+  for (const double start : {60.0, 120.0, 300.0, 400.0}) {
     const Identification r = fit_from(start, "multiple");
     INFO("from " << start << ": " << r.message);
     REQUIRE(r.trusted);
-    CHECK(estimate(r, stiffness).value == Approx(20.0).epsilon(0.01));
+    CHECK(estimate(r, stiffness).value == Approx(200.0).epsilon(0.01));
   }
   int lost = 0;
-  for (const double start : {6.0, 40.0}) {
+  for (const double start : {60.0, 400.0}) {
     const Identification r = fit_from(start, "single");
-    if (!r.trusted || std::abs(estimate(r, stiffness).value - 20.0) > 1.0) ++lost;
+    if (!r.trusted || std::abs(estimate(r, stiffness).value - 200.0) > 10.0) ++lost;
   }
   CHECK(lost > 0);
 }
@@ -201,9 +203,8 @@ TEST_CASE("bad data never give a confident fit", "[fit][bad_input]") {
                       Contains("a factor 57.3 too small, as radians taken for degrees"));
   }
   SECTION("a record of another case") {
-    // Three times the mass: no added mass within the bounds gives its period, and waves instead of a decay.
     const Case other = case_of(buoy_text(), {{"sea.active", "chop"}});
-    const std::string text = measured(other, {{"buoy.z", 0.0}}, kRest, 60.0, 1);
+    const std::string text = measured(other, {{"buoy.z", 0.0}}, kRest, 120.0, 1);
     const Identification r = fit(text, kFree, column("buoy.z", "m"));
     CHECK_FALSE(r.trusted);
     CHECK(warns(r, "it is no run of this case"));
@@ -214,10 +215,10 @@ TEST_CASE("bad data never give a confident fit", "[fit][bad_input]") {
                       Contains("[[fit.records]] is empty"));
   }
   SECTION("a free body that no channel shows, an unknown coordinate") {
-    const std::string text = measured(truth, {{"spring_0.tension", 0.0}}, lifted(1.0), 40.0, 1);
-    CHECK_THROWS_WITH(fit(text, "free_body = \"buoy\"", column("spring_0.tension", "N")),
+    const std::string text = measured(truth, {{"buoy.buoyancy", 0.0}}, lifted(1.0), 40.0, 1);
+    CHECK_THROWS_WITH(fit(text, "free_body = \"buoy\"", column("buoy.buoyancy", "N")),
                       Contains("no measured channel shows how buoy moves"));
-    CHECK_THROWS_WITH(fit(text, "free_body = \"buoy\"\nfree = \"z, rol\"", column("spring_0.tension", "N")),
+    CHECK_THROWS_WITH(fit(text, "free_body = \"buoy\"\nfree = \"z, rol\"", column("buoy.buoyancy", "N")),
                       Contains("there is no coordinate \"rol\", did you mean \"roll\"?"));
   }
 }
