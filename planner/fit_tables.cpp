@@ -39,12 +39,12 @@ std::string verdict_of(const Identification& result) {
 ReportTable estimate_table(const Identification& result) {
   ReportTable t;
   t.title = "Estimates";
-  t.note = "Intervals of 95 %, widened for residuals that follow one another (see docs/fitting.md); sd in percent of the "
-           "estimate.";
-  t.header = {"parameter", "start", "estimate", "95 % interval", "sd, %", "bounds", "started from"};
+  t.note = "Intervals of 95 %; sd in percent of the estimate; widened: how many times wider than for white residuals, because "
+           "these follow one another (see docs/fitting.md).";
+  t.header = {"parameter", "start", "estimate", "95 % interval", "sd, %", "widened", "bounds", "started from"};
   for (const FitEstimate& e : result.estimates)
     t.rows.push_back({with_unit(e.spec.key, e.unit), short_number(e.start), short_number(e.value), interval_text(e),
-                      std::isnan(e.sd) ? "-" : cell(100.0 * e.sd / std::abs(e.value), 1),
+                      std::isnan(e.sd) ? "-" : cell(100.0 * e.sd / std::abs(e.value), 1), cell(e.sd / e.white_sd, 1),
                       fmt::format("{} to {}", short_number(e.spec.lower), short_number(e.spec.upper)), e.started_from});
   return t;
 }
@@ -52,18 +52,15 @@ ReportTable estimate_table(const Identification& result) {
 ReportTable residual_table(const Identification& result) {
   ReportTable t;
   t.title = "Residuals";
-  t.note = "Root mean square of measured less simulated, at the start values and with the fit. Samples per independent one: "
-           "above 1, the residuals are coloured, and intervals are widened for it.";
-  t.header = {"record, channel", "unit", "samples", "left out", "rms at start", "rms with fit", "explained, %",
-              "samples per independent one"};
+  t.note = "Root mean square of measured less simulated, at the start values and with the fit.";
+  t.header = {"record, channel", "unit", "samples", "left out", "rms at start", "rms with fit", "explained, %"};
   for (const RecordFit& record : result.records)
     for (const ChannelFit& c : record.channels) {
       const ShownUnit unit = shown_unit(c.unit);
       t.rows.push_back({record.name + ", " + c.channel, unit.name, std::to_string(c.samples),
                         std::to_string(c.missing + c.outliers), short_number(c.rms_before / unit.factor),
                         short_number(c.rms_after / unit.factor),
-                        record.kind == FitRecordSpec::Kind::constant ? "-" : cell(100.0 * c.explained, 2),
-                        cell(c.correlation_time, 1)});
+                        record.kind == FitRecordSpec::Kind::constant ? "-" : cell(100.0 * c.explained, 2)});
     }
   return t;
 }

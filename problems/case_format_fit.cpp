@@ -72,7 +72,9 @@ const Table& record_table() {
     using S = FitRecordSpec;
     TableOf<S> t("fit.records", "A measured run.");
     t.name("name", &S::name, "Name.");
-    t.file("file", &S::file, "CSV or NetCDF file.").absent("given by --measured");
+    t.file("file", &S::file, "CSV or NetCDF file; other verbs than fit do not need it.")
+        .needed_later()
+        .absent("given by --measured");
     t.choice<decltype(&S::kind), S::Kind>("kind", &S::kind,
                                           {{"decay", S::Kind::decay},
                                            {"regular", S::Kind::regular},

@@ -234,12 +234,18 @@ void TableReader::read_rows(const Field& field, const Node& value, void* object,
   if (good) field.set(object, rows);
 }
 
-std::string TableReader::existing_file(const std::string& name) const {
+std::string TableReader::absolute_file(const std::string& name) const {
   const std::filesystem::path given(name);
   std::error_code error;
   const auto path =
       std::filesystem::absolute(given.is_absolute() ? given : directory_ / given, error).lexically_normal();
-  return !error && std::filesystem::is_regular_file(path, error) ? path.string() : std::string();
+  return error ? name : path.string();
+}
+
+std::string TableReader::existing_file(const std::string& name) const {
+  const std::string path = absolute_file(name);
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) ? path : std::string();
 }
 
 void TableReader::read_text(const Field& field, Node& value, void* object, const std::string& section) {
@@ -254,7 +260,7 @@ void TableReader::read_text(const Field& field, Node& value, void* object, const
                               did_you_mean(value.text, field.choices)));
   }
   if (field.type == Field::Type::file) {
-    const std::string path = existing_file(value.text);
+    const std::string path = field.may_be_missing ? absolute_file(value.text) : existing_file(value.text);
     if (path.empty()) return refuse("there is no file " + short_value(value) + " in the folder of the case");
     value.text = path;
   }

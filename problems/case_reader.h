@@ -40,6 +40,7 @@ class TableReader {
   void read_entries(const Field& field, Node& array, void* object, const std::string& section);
   void read_map(const Field& field, Node& map, void* object, const std::string& section);
   bool good_number(const Field& field, const Node& value, const std::string& section, const std::string& which);
+  std::string absolute_file(const std::string& name) const;
   std::string existing_file(const std::string& name) const;
 
   std::string directory_;

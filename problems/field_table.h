@@ -54,6 +54,7 @@ struct Field {
   bool required = false;
   std::string group;  // fields of one group exclude each other
   bool group_required = false;
+  bool may_be_missing = false;  // file: what needs it says so then
   std::string when_key;           // the field has a meaning only while this choice ...
   std::vector<std::string> when;  // ... is one of these
   std::string without;            // what holds when the key is absent and no value stands for it
@@ -63,6 +64,7 @@ struct Field {
   std::function<void*(void*, const std::string& name)> open;  // sub-table, new entry of tables or map
   std::function<const Table&()> table;                        // its fields
 
+  Field& needed_later() { return may_be_missing = true, *this; }
   Field& require() { return required = true, *this; }
   Field& names(Reference what) { return reference = what, *this; }
   /// One of the fields of `name` at most; exactly one if `needed`.

@@ -61,7 +61,7 @@ struct FitSpec {
   double robust = 2.5;       // standard deviations beyond which a residual counts linearly (Huber)
   int iterations = 50;       // of each solve
   bool cross_validate = true;
-  double explained = 0.5;    // share of a channel's variance that the model must explain for the fit to be trusted
+  double explained = 0.8;    // share of a channel's variance that the model must explain for the fit to be trusted
 };
 
 }  // namespace stillhook

@@ -150,15 +150,23 @@ void fill_estimates(const EstimateInput& in, Identification& result) {
     FitEstimate& e = result.estimates[i];
     e.value = in.values[row];
     const double share = (e.value - e.spec.lower) / span[row];
-    e.at_bound = held[i] = share < kAtBound || share > 1.0 - kAtBound;
+    held[i] = e.at_bound = share < kAtBound || share > 1.0 - kAtBound;
     if (e.spec.prior_sd) prior(row, row) = std::pow(span[row] / *e.spec.prior_sd, 2);
+  }
+  // A parameter whose whole range moves all records together by less than one standard deviation is not in them.
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    double influence = prior(row, row);
+    for (const ResidualSeries& s : series) influence += s.J.col(row).squaredNorm();
+    if (held[i] || influence > 1.0) continue;
+    result.estimates[i].no_influence = held[i] = true;
   }
   const Uncertainty u = uncertainty_of(series, prior, in.c.fit.robust, held);
   const VectorX sd = u.sd(), white = u.white.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (std::size_t i = 0; i < result.estimates.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     FitEstimate& e = result.estimates[i];
-    e.no_influence = u.unknown[i] && !e.at_bound;
+    e.no_influence = e.no_influence || (u.unknown[i] && !e.at_bound);
     if (e.at_bound || e.no_influence) continue;
     e.sd = sd[row] * span[row];
     e.white_sd = white[row] * span[row];

@@ -12,8 +12,25 @@ namespace {
 /// Runs every unit at the blocks' values.
 class UnitRunner {
  public:
-  explicit UnitRunner(const FitProblem& problem) : problem_(problem), values_(problem.units.size()) {}
+  explicit UnitRunner(const FitProblem& problem) : problem_(problem) {}
 
+  /// The last two points are remembered: with bounds, Ceres comes back to where it has been.
+  void go_to(const std::vector<VectorX>& blocks) {
+    if (!point_.empty() && blocks == point_) return;
+    std::swap(point_, former_point_);
+    std::swap(values_, former_values_);
+    if (!point_.empty() && blocks == point_) return;
+    point_ = blocks;
+    values_.resize(problem_.units.size());
+    run(blocks);
+  }
+
+  const UnitValues& values(std::size_t unit) const { return values_[unit]; }
+  std::vector<UnitValues> take() { return std::move(values_); }
+  int evaluations() const { return evaluations_; }
+  std::exception_ptr first_error() const { return first_error_; }
+
+ private:
   void run(const std::vector<VectorX>& blocks) {
     ++evaluations_;
     std::vector<std::exception_ptr> errors(values_.size());
@@ -34,14 +51,9 @@ class UnitRunner {
       if (error && evaluations_ == 1) first_error_ = error;
   }
 
-  const std::vector<UnitValues>& values() const { return values_; }
-  std::vector<UnitValues> take() { return std::move(values_); }
-  int evaluations() const { return evaluations_; }
-  std::exception_ptr first_error() const { return first_error_; }
-
- private:
   const FitProblem& problem_;
-  std::vector<UnitValues> values_;
+  std::vector<VectorX> point_, former_point_;
+  std::vector<UnitValues> values_, former_values_;
   std::exception_ptr first_error_;
   int evaluations_ = 0;
 };
@@ -51,9 +63,9 @@ class RunBeforeEvaluation final : public ceres::EvaluationCallback {
  public:
   RunBeforeEvaluation(std::vector<VectorX>& blocks, UnitRunner& runner) : blocks_(blocks), runner_(runner) {}
 
-  void PrepareForEvaluation(bool /*evaluate_jacobians*/, bool new_point) override {
+  void PrepareForEvaluation(bool /*evaluate_jacobians*/, bool /*new_point*/) override {
     // A point is first asked for its cost and, if it is taken, for its derivatives: one run gives both.
-    if (new_point || runner_.evaluations() == 0) runner_.run(blocks_);
+    runner_.go_to(blocks_);
   }
 
  private:
@@ -64,9 +76,9 @@ class RunBeforeEvaluation final : public ceres::EvaluationCallback {
 /// One residual of a unit, read from what the run left.
 class SampleCost final : public ceres::CostFunction {
  public:
-  SampleCost(const UnitValues& values, const FitGroup& group, const FitUnit& unit, const FitProblem& problem,
-             Eigen::Index row)
-      : values_(values), uses_(group.uses), row_(row) {
+  SampleCost(const UnitRunner& runner, std::size_t u, const FitGroup& group, const FitProblem& problem, Eigen::Index row)
+      : runner_(runner), unit_(u), uses_(group.uses), row_(row) {
+    const FitUnit& unit = problem.units[u];
     set_num_residuals(1);
     for (const int use : uses_)
       mutable_parameter_block_sizes()->push_back(static_cast<int>(
@@ -74,19 +86,21 @@ class SampleCost final : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    if (!values_.ok) return false;
-    residuals[0] = values_.r[row_];
+    const UnitValues& values = runner_.values(unit_);
+    if (!values.ok) return false;
+    residuals[0] = values.r[row_];
     if (!jacobians) return true;
     for (std::size_t i = 0; i < uses_.size(); ++i) {
       if (!jacobians[i]) continue;
-      const MatrixX& J = values_.J[static_cast<std::size_t>(uses_[i])];
+      const MatrixX& J = values.J[static_cast<std::size_t>(uses_[i])];
       for (Eigen::Index j = 0; j < J.cols(); ++j) jacobians[i][j] = J(row_, j);
     }
     return true;
   }
 
  private:
-  const UnitValues& values_;
+  const UnitRunner& runner_;
+  std::size_t unit_;
   const std::vector<int>& uses_;
   Eigen::Index row_;
 };
@@ -129,7 +143,7 @@ void add_residuals(const FitProblem& problem, const UnitRunner& runner, std::vec
       for (const int use : group.uses)
         blocks.push_back(x[static_cast<std::size_t>(unit.blocks[static_cast<std::size_t>(use)])].data());
       for (int i = 0; i < group.count; ++i, ++row)
-        out.AddResidualBlock(new SampleCost(runner.values()[u], group, unit, problem, row),
+        out.AddResidualBlock(new SampleCost(runner, u, group, problem, row),
                              group.robust ? robust : nullptr, blocks);
     }
   }
@@ -164,7 +178,7 @@ std::vector<UnitValues> evaluate_units(const FitProblem& problem) {
   UnitRunner runner(problem);
   std::vector<VectorX> x;
   for (const FitBlock& block : problem.blocks) x.push_back(block.value);
-  runner.run(x);
+  runner.go_to(x);
   if (runner.first_error()) std::rethrow_exception(runner.first_error());
   return runner.take();
 }

@@ -32,6 +32,7 @@ struct FitGroup {
 struct FitUnit {
   std::vector<int> blocks;  // of the problem
   std::vector<FitGroup> groups;  // in the order of the residuals
+  bool simulates = true;         // false for what is known beforehand
   /// Fills r (all groups) and J (by block of the unit: residuals x block size) at block values in the unit's order.
   /// Returns false when the simulation fails. May throw; called from several threads, once at a time for a unit.
   std::function<bool(const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J)> evaluate;

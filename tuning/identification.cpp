@@ -152,7 +152,8 @@ class Identifier {
 
   void count(const FitProblem& problem, const FitOutcome& outcome) {
     result_.iterations += outcome.iterations;
-    result_.simulations += outcome.evaluations * static_cast<int>(problem.units.size());
+    for (const FitUnit& unit : problem.units)
+      if (unit.simulates) result_.simulations += outcome.evaluations;
   }
 
   void shoot_in_segments() {

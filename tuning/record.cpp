@@ -250,6 +250,10 @@ class RecordReader {
 
 }  // namespace
 
+MeasuredRecord read_record(const FitRecordSpec& spec, const std::vector<Channel>& channels, double output_interval) {
+  return RecordReader(spec, channels, output_interval).read();
+}
+
 std::vector<bool> spikes(const std::vector<double>& values) {
   std::vector<double> steps, away(values.size(), 0.0), sizes;
   for (std::size_t i = 1; i < values.size(); ++i)

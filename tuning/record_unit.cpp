@@ -91,6 +91,7 @@ FitUnit prior_unit(const FitParameters& parameters) {
   FitUnit unit;
   unit.blocks = {0};
   unit.groups = {{{0}, static_cast<int>(known.size()), false}};
+  unit.simulates = false;
   unit.evaluate = [&parameters, known](const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J) {
     const VectorX values = parameters.values(x[0]), span = parameters.span();
     r.resize(static_cast<Eigen::Index>(known.size()));

@@ -143,6 +143,8 @@ TEST_CASE("key values are in the key's unit, written or by default", "[case]") {
   CHECK(key_value(c, "operation.phases.hoist_up.moves.hoist.speed_m_per_min") == 2.0);
   CHECK(key_value(c, "solver.newton_tolerance") == SolverSpec{}.newton_tolerance);
   CHECK(key_value(c, "bodies.crane.cog_m.0") == -4.489);
+  CHECK(key_value(c, "bodies.crane.hydrodynamics.linear_damping_kN_s_per_m.1") == 0.0);  // a list that is not written
+  CHECK(key_unit(c, "bodies.crane.hydrodynamics.linear_damping_kN_s_per_m.1") == "kN s/m");
   CHECK(key_value(c, "moorings.crane_bow_port.azimuth_deg") == 45.0);
   CHECK_THROWS_AS(key_value(c, "moorings.*.azimuth_deg"), CaseError);  // they differ
   CHECK_THROWS_AS(key_value(c, "wires.hoist_port.role"), CaseError);   // no number
@@ -161,6 +163,49 @@ TEST_CASE("values in the keys' units change the lift and nothing else", "[case]"
   CHECK(back.resolved == c.resolved);
   CHECK(back.overrides.size() == 3);  // a key is set once, however often it changes
   CHECK_THROWS_AS(with_values(c, {{"taglines.*.kd_kN_s_per_deg", std::nan("")}}), CaseError);
+}
+
+TEST_CASE("one item of a list that the case does not write", "[case]") {
+  const Case c = with_values(read_case(kBox), {{"bodies.crane.hydrodynamics.quadratic_damping_kN_s2_per_m2.2", 7.0},
+                                               {"bodies.crane.hydrodynamics.radiation_factor", 0.9}});
+  const HydrodynamicsSpec& h = named(c.specification.bodies, "crane").hydrodynamics;
+  CHECK(h.quadratic_damping == (Vector6() << 0.0, 0.0, 7e3, 0.0, 0.0, 0.0).finished());
+  CHECK(h.radiation_factor == 0.9);
+  CHECK(h.added_mass_factor == 1.0);
+}
+
+TEST_CASE("the parts of a fit", "[case][fit]") {
+  const std::string base = text_of(kRoot + "/tests/bad_input/base.toml");
+  const auto read = [&](const std::string& fit) { return read_case_text(base + fit, "base.toml", "/here"); };
+  const auto said = [&](const std::string& fit) {
+    try {
+      read(fit);
+    } catch (const CaseError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string record =
+      "\n[[fit.records]]\nname = \"a\"\nkind = \"decay\"\nfile = \"a.csv\"\ntime_unit = \"min\"\n"
+      "columns = [{ channel = \"ship.z\", unit = \"mm\", reversed = true }]\n";
+  const Case c = read("\n[fit.parameters.\"bodies.ship.mass_t\"]\nmin = 1.0\nmax = 1e6\nprior_mean = 10.0\nprior_sd = 2.0\n" +
+                      record);
+  REQUIRE(c.fit.parameters.size() == 1);
+  CHECK(c.fit.parameters[0].prior_sd == 2.0);
+  REQUIRE(c.fit.records.size() == 1);
+  CHECK(c.fit.records[0].file == "/here/a.csv");  // need not be there yet
+  CHECK(c.fit.records[0].time_unit == 60.0);
+  CHECK(c.fit.records[0].columns[0].reversed);
+  CHECK(read_case_text(c.resolved, "case.toml", "/").fit.records[0].file == "/here/a.csv");
+  CHECK_THAT(said("\n[fit.parameters.\"bodies.ship.mass_t\"]\nmin = 3.0\nmax = 2.0\n"),
+             Catch::Contains("min: must be < max 2, got 3"));
+  CHECK_THAT(said("\n[fit.parameters.\"bodies.ship.mass_t\"]\nmin = 1.0\nmax = 1e6\nprior_sd = 1.0\n"),
+             Catch::Contains("needs prior_mean and prior_sd, or none of them"));
+  CHECK_THAT(said("\n[fit.parameters.\"bodies.ship.mas_t\"]\nmin = 1.0\nmax = 2.0\n"), Catch::Contains("leads nowhere"));
+  CHECK_THAT(said(record + "free = \"z\"\n"), Catch::Contains("free"));
+  CHECK_THAT(said("\n[[fit.records]]\nname = \"a\"\nkind = \"decay\"\nfree = \"z\"\n"
+                  "columns = [{ channel = \"ship.z\", unit = \"m\" }]\n"),
+             Catch::Contains("[fit.records.a] free: needs free_body"));
 }
 
 TEST_CASE("the resolved case reads the same from another folder", "[case]") {
