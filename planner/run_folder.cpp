@@ -12,6 +12,8 @@ namespace fs = std::filesystem;
 constexpr std::array kFiles = {"case.toml",
                                "summary.json",
                                "history.nc",
+                               "history.csv",
+                               "history.xlsx",
                                "report.html",
                                "plan.toml",
                                "evaluations.sqlite",

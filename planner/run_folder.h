@@ -35,6 +35,8 @@ class RunFolder {
   std::string report() const { return path_ + "/report.html"; }
   std::string plan() const { return path_ + "/plan.toml"; }
   std::string store() const { return path_ + "/evaluations.sqlite"; }
+  std::string csv() const { return path_ + "/history.csv"; }    // exports
+  std::string xlsx() const { return path_ + "/history.xlsx"; }
 
  private:
   std::string path_;

@@ -43,7 +43,8 @@ class RunView {
 
   /// Index of a channel, -1 if there is none.
   int channel(const std::string& name) const;
-  /// Samples of a channel; empty if there is no such channel or nothing was recorded.
+  /// Samples of a channel; empty if there is no such channel or nothing was recorded. Those that the trajectory does not
+  /// hold are read once from its source and kept with the view.
   std::span<const double> series(const std::string& name) const;
 
   const std::vector<std::size_t>& all_phases() const { return all_phases_; }
@@ -83,6 +84,7 @@ class RunView {
   const Specification& specification_;
   const Trajectory& run_;
   std::unordered_map<std::string, int> index_;
+  mutable std::unordered_map<int, std::vector<double>> read_;  // from the source, by channel
   std::vector<std::size_t> all_phases_;
   struct MovingDrive {
     std::span<const double> position;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kHalvings = 8;            // of a step that does not converge
 constexpr double kProgressEvery = 5.0;  // s, simulated
+constexpr const char* kWholeRun = "run";  // the phase of a run without an operation
 constexpr double kLost = 1e5;           // m from the origin: no longer a lift
 
 // One run; its parts share the state.
@@ -25,7 +26,8 @@ class Run {
         state_(model.initial_state()),
         stepper_(model.system(), hht_options(model.specification().solver)),
         board_(model),
-        recorder_(model, board_, options.record, out),
+        recorder_(model, board_, options.record, out, options.sink),
+        operation_(operation),
         clock_(operation, static_cast<int>(model.specification().drives.size())),
         drives_(model.specification().drives.size()) {}
 
@@ -33,9 +35,10 @@ class Run {
     const SolverSpec& solver = model_.specification().solver;
     const double h = solver.time_step;
     const long every = std::max(1L, std::lround(solver.output_interval / h));
+    if (options_.sink) options_.sink->open(out_, forecast(every * h));
     stepper_.start(state_);
     clock_.advance(0.0, recorder_);
-    if (clock_.phase() < 0) recorder_.open_phase("run", PhaseSpec::Stage::hanging, 0.0, false);
+    if (clock_.phase() < 0) recorder_.open_phase(kWholeRun, PhaseSpec::Stage::hanging, 0.0, false);
     note(h, true);
     double next_progress = kProgressEvery;
     for (long k = 1;; ++k) {
@@ -71,6 +74,17 @@ class Run {
   }
 
   int phase() const { return std::max(0, clock_.phase()); }
+
+  SampleForecast forecast(double interval) const {
+    SampleForecast f;
+    f.interval = interval;
+    const double limit = model_.specification().solver.max_duration;
+    const double end = operation_.phases.empty() ? limit : operation_.planned_duration();
+    f.expected = 1 + static_cast<std::size_t>((limit > 0.0 ? std::min(limit, end) : end) / interval);
+    for (const Phase& p : operation_.phases) f.phases.push_back({p.name, p.stage});
+    if (f.phases.empty()) f.phases.push_back({kWholeRun, PhaseSpec::Stage::hanging});
+    return f;
+  }
 
   bool done(double t) const {
     const double limit = model_.specification().solver.max_duration;
@@ -134,6 +148,7 @@ class Run {
   HhtStepper stepper_;
   ChannelBoard board_;
   Recorder recorder_;
+  const Operation& operation_;
   OperationClock clock_;
   std::vector<DriveState> drives_;
 };

@@ -5,6 +5,7 @@
 
 #include "sim/model.h"
 #include "sim/operation.h"
+#include "sim/samples.h"
 #include "sim/trajectory.h"
 
 namespace stillhook {
@@ -14,6 +15,8 @@ struct RunOptions {
   std::function<bool(double t, double t_end)> progress;
   /// Keep samples (values) at specification.solver.output_interval; extremes and contacts are kept always.
   bool record = true;
+  /// Takes the samples instead of the trajectory, whose `time` and `values` then stay empty.
+  SampleSink* sink = nullptr;
 };
 
 /// Never throws for numerical trouble: a run that diverges ends with RunStatus::diverged and says where. The same
