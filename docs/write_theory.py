@@ -97,6 +97,23 @@ def opening_comment(path):
     return [line[1:] if line.startswith(" ") else line for line in lines]
 
 
+def anchor(title):
+    """The name that a heading gets on a rendered page."""
+    return re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
+
+
+SECTION_OF = {pathlib.PurePath(path).name: title for _, _, sections in CHAPTERS for title, path in sections}
+
+
+def linked(text):
+    """Names of headers that have a section here lead to it."""
+    def link(match):
+        title = SECTION_OF.get(match[2])
+        return f"[{match[2]}](#{anchor(title)})" if title else match[0]
+
+    return re.sub(r"\b((?:\w+/ ?)*)(\w+\.h)\b", link, text)
+
+
 def escaped(text):
     """Prose in Markdown: what the comment writes as plain text stays plain."""
     text = re.sub(r"([*<|])", r"\\\1", text)
@@ -117,11 +134,13 @@ def markdown(lines):
 
     def flush_prose():
         if prose:
-            out.extend([escaped(" ".join(prose)), ""])
+            out.extend([linked(escaped(" ".join(prose))), ""])
         prose.clear()
 
-    for line in lines:
-        if line.startswith("  "):
+    for line, after in zip(lines, lines[1:] + [""]):
+        # A term that is explained on its own line and the ones below it.
+        hanging = after.startswith("  ") and re.match(r"\w+(  +|: )\S", line)
+        if line.startswith("  ") or hanging:
             flush_prose()
             block.append(line)
         elif not line.strip():

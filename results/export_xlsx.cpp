@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 #include <xlsxwriter.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 
 #include "results/export.h"
 #include "results/files.h"
+#include "results/workbook_check.h"
 #include "sim/samples.h"
 
 namespace stillhook {
@@ -19,7 +23,6 @@ class Workbook {
     // Row by row to temporary files: a long history is never held as a whole sheet.
     lxw_workbook_options options = {};
     options.constant_memory = LXW_TRUE;
-    options.use_zip64 = LXW_TRUE;
     book_ = workbook_new_opt(path.c_str(), &options);
     if (!book_) throw FileError(shown_ + ": cannot be written: no memory for a workbook");
     heading_ = workbook_add_format(book_);
@@ -168,12 +171,18 @@ void write_contacts(Workbook& book, const Trajectory& run) {
 
 void write_xlsx(const Export& data, const std::string& path) {
   PendingFile pending(path);
+  // The library says on its own what it cannot open, in words of its own: better to find out before it does.
+  if (const std::ofstream probe(pending.temporary()); !probe)
+    throw FileError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
   Workbook book(pending.temporary(), path);
   write_history(book, data);
   write_metrics(book, data.summary);
   write_limits(book, data.summary);
   write_contacts(book, data.run);
   book.close();
+  if (const std::string fault = workbook_fault(pending.temporary()); !fault.empty())
+    throw FileError(
+        fmt::format("{}: cannot be written: {}; is a disk full, this one or that of temporary files?", path, fault));
   pending.commit();
 }
 

@@ -1,12 +1,26 @@
 #include "results/netcdf_file.h"
 
+#include <hdf5.h>
+
+#include <cerrno>
+#include <cstring>
 #include <limits>
 
 #include "results/files.h"
 
 namespace stillhook {
+namespace {
+
+constexpr std::size_t kCacheBytes = 65536, kCacheSlots = 101;  // per variable
+
+}  // namespace
 
 NetcdfFile::NetcdfFile(const std::string& path, Mode mode, std::string shown) : shown_(std::move(shown)) {
+  // At the end of the program HDF5 closes what is open; a file that could not be closed, on a full disk, makes it crash
+  // there. Every file is closed by its owner.
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  // Channels are written and read whole, once: a cache would only keep all of them in memory until the file is closed.
+  nc_set_chunk_cache(kCacheBytes, kCacheSlots, 0.75f);
   if (mode == Mode::create)
     check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), "cannot be written");
   else
@@ -18,7 +32,13 @@ NetcdfFile::~NetcdfFile() {
 }
 
 void NetcdfFile::check(int code, const std::string& what) const {
-  if (code != NC_NOERR) throw FileError(shown_ + ": " + what + ": " + nc_strerror(code));
+  if (code == NC_NOERR) return;
+  const int system = errno;
+  std::string reason = nc_strerror(code);
+  // HDF5 does not pass on why the system refused a write; errno still knows.
+  for (const int known : {ENOSPC, EFBIG, EDQUOT, EIO, EROFS})
+    if (code == NC_EHDFERR && system == known) reason = std::strerror(system);
+  throw FileError(shown_ + ": " + what + ": " + reason);
 }
 
 void NetcdfFile::sync() { check(nc_sync(id_), "cannot be written"); }

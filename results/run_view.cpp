@@ -42,7 +42,11 @@ RunView::RunView(const Specification& specification, const Trajectory& trajector
       if (!position.empty()) moving_[p].push_back({position, from[d], to[d]});
     }
   }
+  kept_ = std::move(read_);  // the drives' positions; moved as a whole, so that the spans stay
+  read_.clear();
 }
+
+void RunView::forget() const { read_.clear(); }
 
 int RunView::channel(const std::string& name) const {
   const auto found = index_.find(name);
@@ -56,6 +60,7 @@ std::span<const double> RunView::series(const std::string& name) const {
   const bool held = k < run_.values.size() && run_.values[k].size() == run_.time.size();
   if (held) return run_.values[k];
   if (!run_.source) return {};
+  if (const auto kept = kept_.find(c); kept != kept_.end()) return kept->second;
   const auto [found, added] = read_.try_emplace(c);
   if (added) found->second = run_.source->series(k);
   return found->second;

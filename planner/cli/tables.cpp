@@ -84,9 +84,9 @@ std::string limits_text(const std::vector<LimitCheck>& limits) {
 std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& limits) {
   if (limits.empty()) return "No limits to keep.";
   const LimitCheck* governing = governing_check(limits);
-  const std::string by =
-      fmt::format(", governed by {}: {} {}, limit {} {}", governing->metric, short_number(governing->value),
-                  governing->unit, short_number(governing->limit), governing->unit);
+  const std::string unit = governing->unit == "1" ? "" : " " + governing->unit;
+  const std::string by = fmt::format(", governed by {}: {}{}, limit {}{}", governing->metric,
+                                     short_number(governing->value), unit, short_number(governing->limit), unit);
   if (metrics.status != RunStatus::completed) return coloured(Colour::bad, "NOT COMPLETED") + by;
   return (within_limits(metrics, limits) ? coloured(Colour::good, "WITHIN LIMITS")
                                          : coloured(Colour::bad, "NOT WITHIN LIMITS")) +
