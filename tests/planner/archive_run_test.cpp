@@ -79,8 +79,11 @@ TEST_CASE("simulate: kill -9 at any moment leaves a history that can be read, re
 
 TEST_CASE("export: CSV holds the samples to the last digit", "[export]") {
   const Folder folder;
-  const std::string out = "kjøring nr 1";
-  REQUIRE(run(folder, {"simulate", kCase, "--out", out}).code == 0);
+  // Spaces and letters beyond ASCII, in the folder and in the case's path.
+  const std::string out = "kjøring nr 1", file = folder / "løft – nr 1.toml";
+  fs::copy_file(kCase, file);
+  REQUIRE(run(folder, {"simulate", file, "--out", out}).code == 0);
+  CHECK(run(folder, {"report", out}).out == out + "/report.html\n");
   CHECK(run(folder, {"export", out}).code == 2);
   CHECK(run(folder, {"export", out, "--csv", "--xlsx"}).code == 2);
   CHECK(run(folder, {"export", "nowhere", "--csv"}).code == 2);
