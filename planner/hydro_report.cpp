@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "planner/hydro_tables.h"
+#include "planner/report_page.h"
 #include "planner/text_number.h"
-#include "planner/version.h"
 #include "results/html.h"
 #include "results/report_parts.h"
 
@@ -20,19 +20,6 @@ constexpr const char* kStyle = R"css(
 @media(max-width:480px){.pairs{grid-template-columns:1fr}}
 @media print{.pairs{grid-template-columns:1fr 1fr}}
 )css";
-
-std::string html_of(const ReportTable& t, int numeric_from = 1) {
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-  for (const std::string& cell : t.header) header.push_back(escape_html(cell));
-  for (const auto& row : t.rows) {
-    rows.emplace_back();
-    for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
-  }
-  std::string out = "<h3>" + escape_html(t.title) + "</h3>";
-  if (!rows.empty()) out += html_table(header, rows, numeric_from);
-  return out + (t.note.empty() ? "" : "<p><small>" + escape_html(t.note) + "</small></p>");
-}
 
 std::string checks_html(const HydroSet& set) {
   const ReportTable table = check_table(set);
@@ -67,21 +54,18 @@ std::string head(const HydroResult& result) {
       failed > 0 ? fmt::format("{} of {} self-checks fail and are accepted by name", failed, checks)
                  : fmt::format("All {} self-checks pass", checks),
       lines);
-  if (result.warnings.empty()) return out;
-  out += "<div class=\"verdict warn\"><b>To be known</b><ul>";
-  for (const std::string& warning : result.warnings) out += "<li>" + escape_html(warning) + "</li>";
-  return out + "</ul></div>";
+  return out + warnings_html(result.warnings);
 }
 
 std::string set_html(const HydroResult& result, std::size_t k) {
   const HydroSet& set = result.sets[k];
   std::string out = "<p>" + escape_html(set.set->description) + "</p>" + checks_html(set);
-  if (!result.convergence[k].empty()) out += html_of(convergence_table(set, result.convergence[k].front()));
-  out += html_of(fit_table(set)) + coefficient_plots(set);
+  if (!result.convergence[k].empty()) out += table_html(convergence_table(set, result.convergence[k].front()));
+  out += table_html(fit_table(set)) + coefficient_plots(set);
   std::string tables;
-  for (const ReportTable& table : coefficient_tables(set)) tables += html_of(table);
+  for (const ReportTable& table : coefficient_tables(set)) tables += table_html(table);
   out += "<details><summary>Coefficients as tables</summary>" + tables + "</details>";
-  if (!set.bands.empty()) out += html_of(panel_table(set));
+  if (!set.bands.empty()) out += table_html(panel_table(set));
   return out;
 }
 
@@ -97,37 +81,23 @@ std::string files_html(const std::vector<std::string>& files) {
 }  // namespace
 
 std::string hydro_report(const Case& c, const HydroResult& result, const std::vector<std::string>& files) {
-  std::string body, nav;
-  const auto section = [&](const std::string& id, const std::string& title, const std::string& content) {
-    if (content.empty()) return;
-    nav += fmt::format("<a href=\"#{}\">{}</a>", escape_html(id), escape_html(title));
-    body += html_section(escape_html(id), escape_html(title), content);
-  };
+  ReportPage page;
   if (!result.responses.frequencies.empty())
-    section(
+    page.section(
         "response", "Response amplitude operators",
         "<p>Linear motions of the moored, jointed lift about its initial equilibrium, per metre of wave amplitude, of "
         "each body's centre of gravity along its own heading. Waves travel towards the headings given, in the "
         "world.</p>" +
             response_plots(result.responses));
   std::string periods;
-  for (const ReportTable& table : result.periods) periods += html_of(table);
-  section("periods", "Natural periods", periods);
+  for (const ReportTable& table : result.periods) periods += table_html(table);
+  page.section("periods", "Natural periods", periods);
   for (std::size_t k = 0; k < result.sets.size(); ++k)
-    section("set-" + result.sets[k].name(), "Coefficients of " + readable_name(result.sets[k].title()),
+    page.section("set-" + result.sets[k].name(), "Coefficients of " + readable_name(result.sets[k].title()),
             set_html(result, k));
-  section("files", "Files", files_html(files));
+  page.section("files", "Files", files_html(files));
 
-  const std::string title = escape_html("Hydrodynamics of " + (c.title.empty() ? c.name : c.title));
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:; base-uri 'none'; form-action 'none'\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><meta name=\"generator\" "
-      "content=\"stillhook {0}\"><link rel=\"icon\" href=\"data:,\"><title>{1}</title><style>{2}{3}</style></head>\n"
-      "<body><header><h1>{1}</h1>{4}</header>\n<main><nav aria-label=\"Contents\">{5}</nav>{6}</main>\n"
-      "<footer>stillhook {0} · {7}</footer></body></html>\n",
-      kVersion, title, report_style(), kStyle, head(result), nav, body, escape_html(c.name));
+  return page.html("Hydrodynamics of " + (c.title.empty() ? c.name : c.title), kStyle, head(result), c.name);
 }
 
 }  // namespace stillhook

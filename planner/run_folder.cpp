@@ -17,6 +17,7 @@ constexpr std::array kFiles = {"case.toml",
                                "history.xlsx",
                                "report.html",
                                "plan.toml",
+                               "fitted.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
                                "evaluations.sqlite-shm"};

@@ -1,5 +1,5 @@
 // The folder that a run leaves: case.toml, summary.json, history.nc, report.html and, for searches, plan.toml and
-// evaluations.sqlite; for hydro coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at
+// evaluations.sqlite; for fits fitted.toml; for hydro coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at
 // all.
 #pragma once
 
@@ -34,6 +34,7 @@ class RunFolder {
   std::string history() const { return path_ + "/history.nc"; }
   std::string report() const { return path_ + "/report.html"; }
   std::string plan() const { return path_ + "/plan.toml"; }
+  std::string fitted() const { return path_ + "/fitted.toml"; }
   std::string store() const { return path_ + "/evaluations.sqlite"; }
   std::string csv() const { return path_ + "/history.csv"; }    // exports
   std::string xlsx() const { return path_ + "/history.xlsx"; }

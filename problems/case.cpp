@@ -56,6 +56,7 @@ Case read_case_text(const std::string& text, const std::string& name, const std:
   findings.throw_if_any();  // what follows takes every key and name for good
   check_lift(c, root, findings);
   check_plan(c, root, findings);
+  check_fit(c, root, findings);
   findings.throw_if_any();
   if (c.title.empty()) c.title = c.name;
   c.specification.name = c.name;
@@ -89,6 +90,15 @@ double key_value(const Case& c, const std::string& key) {
       common = value;
     }
     return *common;  // find_targets finds at least one or throws
+  } catch (const KeyError& error) {
+    throw CaseError(fmt::format("{}: {}: {}", c.file, key, error.what()));
+  }
+}
+
+std::string key_unit(const Case& c, const std::string& key) {
+  Node root = document_of(c.text, c.file, c.overrides);
+  try {
+    return find_targets(root, key).front().field->unit.text;
   } catch (const KeyError& error) {
     throw CaseError(fmt::format("{}: {}: {}", c.file, key, error.what()));
   }

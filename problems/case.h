@@ -1,4 +1,4 @@
-// A case: everything one TOML document asks for. Lift, limits and the plan to search for.
+// A case: everything one TOML document asks for. Lift, limits, the plan to search for and the fit to measured runs.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "problems/fit_spec.h"
 #include "results/limits.h"
 #include "sim/specification.h"
 
@@ -37,11 +38,12 @@ struct ScenarioSpec {
 };
 
 struct PlanSpec {
-  enum class Aggregate { mean, worst };
+  enum class Aggregate { mean, worst, tail };
   std::vector<ObjectiveTerm> objective;
   std::vector<VariableSpec> variables;
   std::vector<ScenarioSpec> scenarios;
   Aggregate aggregate = Aggregate::mean;  // of the objective over scenarios; limits hold in every scenario
+  double tail_share = 0.2;               // tail: mean of this worst share of the scenarios, in (0, 1]
   std::string global_algorithm = "isres";  // NLopt names, lower case, as in the docs
   std::string local_algorithm = "cobyla";
   double global_share = 0.5;             // of the evaluations
@@ -63,6 +65,7 @@ struct Case {
   Specification specification;
   std::vector<LimitSpec> limits;
   PlanSpec plan;
+  FitSpec fit;
   std::string resolved;                  // the document as used: the file plus every --set, as TOML text; names files
                                          // by absolute paths, so that it can be read from any folder
   std::string file;                      // what messages call the case file
@@ -86,6 +89,9 @@ Case read_case_text(const std::string& text, const std::string& name, const std:
 
 /// Value of a numeric key in its own unit, as read or by default. With "*", all must be equal.
 double key_value(const Case& c, const std::string& key);
+
+/// Unit of a numeric key, as in messages: "kN/m"; empty for a pure number. Throws CaseError for a key that does not exist.
+std::string key_unit(const Case& c, const std::string& key);
 
 /// The error that build_model() found, as a sentence about the case: with the place of the entry and field it names, as
 /// far as the case has them.

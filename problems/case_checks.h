@@ -1,6 +1,8 @@
 // Rules of a case that go beyond one key: names and what refers to them, and sense.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "problems/case.h"
@@ -16,5 +18,18 @@ void check_lift(const Case& c, const Node& root, Findings& findings);
 
 /// Metrics that exist, variables that lead to a number between their bounds, scenarios.
 void check_plan(const Case& c, const Node& root, Findings& findings);
+
+/// Parameters and records of the fit.
+void check_fit(const Case& c, const Node& root, Findings& findings);
+
+/// A key that a search or a fit changes, and the entry that asks for it.
+struct VariedKey {
+  std::string entry, key;
+  double lower = 0.0, upper = 0.0;   // in the key's unit
+  std::optional<double> start;       // absent: the case's own value
+};
+
+/// Bounds in order and allowed, a key that leads to numbers of the lift, one start value within the bounds.
+void check_varied_key(const VariedKey& varied, const Node& root, Findings& findings);
 
 }  // namespace stillhook

@@ -42,6 +42,7 @@ std::vector<std::string> names_of(Reference what, const Specification& s) {
       break;
     case Reference::sea_state:
       names = names_in(s.sea.states);
+      names.push_back("calm");  // still water needs no entry
       break;
     case Reference::phase:
       names = names_in(s.operation.phases);

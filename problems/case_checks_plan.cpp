@@ -5,7 +5,7 @@
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
-#include "problems/search/nlopt_search.h"
+#include "problems/search/solvers.h"
 #include "results/metrics.h"
 
 namespace stillhook {
@@ -57,59 +57,15 @@ class PlanCheck {
     if (name == "none") return;
     const bool constrained = std::any_of(case_.limits.begin(), case_.limits.end(),
                                          [](const LimitSpec& limit) { return limit.hard && (limit.max || limit.min); });
-    if (const std::string fault = algorithm_fault(name, global, constrained); !fault.empty())
+    if (const std::string fault = algorithm_fault(name, global, {.inequalities = constrained}); !fault.empty())
       report("plan", key, fault);
   }
 
   void check_variable(const VariableSpec& v) {
     const std::string entry = "plan.variables." + as_step(v.key);
-    const bool ordered = v.lower < v.upper;
-    if (!ordered) report(entry, "min", fmt::format("must be < max {:.6g}, got {:.6g}", v.upper, v.lower));
     if (v.logarithmic && !(v.lower > 0.0))
       report(entry, "min", fmt::format("must be > 0 for a logarithmic variable, got {:.6g}", v.lower));
-    const std::vector<std::string> steps = steps_of(v.key);
-    if (steps.front() == "plan" || steps.front() == "limits" || steps.front() == "solver")
-      return report(entry, "", fmt::format("must be a key of the lift, not of [{}]", steps.front()));
-    try {
-      Node copy = root_;
-      const std::vector<KeyTarget> targets = find_targets(copy, v.key);
-      const std::optional<double> start = start_value(entry, targets);
-      if (start && ordered && !(v.lower <= *start && *start <= v.upper))
-        report(entry, "",
-               fmt::format("the start value {:.6g} lies outside [{:.6g}, {:.6g}]", *start, v.lower, v.upper));
-      if (start) check_range(entry, *targets.front().field, v);
-    } catch (const KeyError& error) {
-      report(entry, "", fmt::format("leads nowhere: {}", error.what()));
-    }
-  }
-
-  /// The value that every target has now; reports if there is none.
-  std::optional<double> start_value(const std::string& entry, const std::vector<KeyTarget>& targets) {
-    std::optional<double> start;
-    for (const KeyTarget& target : targets) {
-      const bool is_number = target.field->type == Field::Type::number || target.index;
-      if (!is_number) {
-        report(entry, "", fmt::format("must lead to a number, {} is not one", target.field->key));
-        return std::nullopt;
-      }
-      const std::optional<double> value = number_at(target);
-      if (!value) {
-        report(entry, "", fmt::format("the case has no value of {} to start from", target.field->key));
-        return std::nullopt;
-      }
-      if (start && *start != *value) {
-        report(entry, "", fmt::format("leads to different start values, {:.6g} and {:.6g}", *start, *value));
-        return std::nullopt;
-      }
-      start = value;
-    }
-    return start;
-  }
-
-  void check_range(const std::string& entry, const Field& field, const VariableSpec& v) {
-    for (const auto& [key, value] : {std::pair{"min", v.lower}, std::pair{"max", v.upper}})
-      if (!field.range.contains(value))
-        report(entry, key, fmt::format("{} must be {}, got {:.6g}", field.key, field.range.text(field.unit), value));
+    check_varied_key({entry, v.key, v.lower, v.upper, std::nullopt}, root_, findings_);
   }
 
   void check_scenario(const ScenarioSpec& scenario) {

@@ -25,5 +25,6 @@ const Table& solver_table();
 const Table& panel_method_table();
 const Table& limit_table();
 const Table& plan_table();
+const Table& fit_table();
 
 }  // namespace stillhook

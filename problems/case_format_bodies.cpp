@@ -22,19 +22,30 @@ Matrix6 matrix_from(const std::vector<std::vector<double>>& rows) {
   return matrix;
 }
 
-/// Three numbers into the diagonal of a 6 x 6 matrix from `first` on.
+/// Entry i of a vector, or of the diagonal of a matrix.
 template <class M>
-auto diagonal_setter(M member, int first) {
-  return [member, first](HydrodynamicsSpec& h, const std::vector<double>& v) {
-    for (int i = 0; i < 3; ++i) (h.*member)(first + i, first + i) = v[static_cast<std::size_t>(i)];
-  };
+auto& entry_of(M& member, int i) {
+  if constexpr (M::ColsAtCompileTime == 1)
+    return member[i];
+  else
+    return member(i, i);
 }
 
+/// Three numbers of a vector, or of the diagonal of a matrix, from `first` on. They have defaults, so a search or a fit
+/// may change one of them where the case writes none.
 template <class M>
-auto half_setter(M member, int first) {
-  return [member, first](HydrodynamicsSpec& h, const std::vector<double>& v) {
-    for (int i = 0; i < 3; ++i) (h.*member)[first + i] = v[static_cast<std::size_t>(i)];
+Field& half(TableOf<HydrodynamicsSpec>& t, const char* key, M member, int first, const Unit& unit, const char* doc) {
+  Field& field = t.numbers(
+      key, {3},
+      [member, first](HydrodynamicsSpec& h, const std::vector<double>& v) {
+        for (int i = 0; i < 3; ++i) entry_of(h.*member, first + i) = v[static_cast<std::size_t>(i)];
+      },
+      unit, not_negative(), doc);
+  field.get = [member, first](const void* s) -> std::optional<Value> {
+    const auto& values = static_cast<const HydrodynamicsSpec*>(s)->*member;
+    return Value(std::vector<double>{entry_of(values, first), entry_of(values, first + 1), entry_of(values, first + 2)});
   };
+  return field;
 }
 
 const Table& sea_state_table() {
@@ -130,14 +141,14 @@ const Table& hull_table() {
 
 void add_viscous_damping(TableOf<HydrodynamicsSpec>& t) {
   using S = HydrodynamicsSpec;
-  t.numbers("linear_damping_kN_s_per_m", {3}, half_setter(&S::linear_damping, 0), unit::kN_s_per_m, not_negative(),
-            "Viscous, linear in velocity: surge, sway, heave.");
-  t.numbers("linear_angular_damping_kN_m_s_per_rad", {3}, half_setter(&S::linear_damping, 3), unit::kN_m_s_per_rad,
-            not_negative(), "Viscous, linear in velocity: roll, pitch, yaw.");
-  t.numbers("quadratic_damping_kN_s2_per_m2", {3}, half_setter(&S::quadratic_damping, 0), unit::kN_s2_per_m2,
-            not_negative(), "Viscous, in velocity times its magnitude: surge, sway, heave.");
-  t.numbers("quadratic_angular_damping_kN_m_s2_per_rad2", {3}, half_setter(&S::quadratic_damping, 3),
-            unit::kN_m_s2_per_rad2, not_negative(), "Viscous, in velocity times its magnitude: roll, pitch, yaw.");
+  half(t, "linear_damping_kN_s_per_m", &S::linear_damping, 0, unit::kN_s_per_m,
+       "Viscous, linear in velocity: surge, sway, heave.");
+  half(t, "linear_angular_damping_kN_m_s_per_rad", &S::linear_damping, 3, unit::kN_m_s_per_rad,
+       "Viscous, linear in velocity: roll, pitch, yaw.");
+  half(t, "quadratic_damping_kN_s2_per_m2", &S::quadratic_damping, 0, unit::kN_s2_per_m2,
+       "Viscous, in velocity times its magnitude: surge, sway, heave.");
+  half(t, "quadratic_angular_damping_kN_m_s2_per_rad2", &S::quadratic_damping, 3, unit::kN_m_s2_per_rad2,
+       "Viscous, in velocity times its magnitude: roll, pitch, yaw.");
   const std::pair<const char*, int> modes[] = {{"heave", 2}, {"roll", 3}, {"pitch", 4}};
   for (const auto& [mode, index] : modes) {
     const int i = index;
@@ -173,11 +184,10 @@ const Table& hydrodynamics_table() {
          "method marched along. `automatic` is `retardation` for a table, else `reduced`.")
         .only_when("kind", {"table", "panels", "database"});
     const std::vector<std::string> constant = {"constant"};
-    t.numbers("added_mass_t", {3}, diagonal_setter(&S::added_mass, 0), unit::t, not_negative(), "Surge, sway, heave.")
+    half(t, "added_mass_t", &S::added_mass, 0, unit::t, "Surge, sway, heave.")
         .only_when("kind", constant)
         .one_of("added mass");
-    t.numbers("added_inertia_t_m2", {3}, diagonal_setter(&S::added_mass, 3), unit::t_m2, not_negative(),
-              "Roll, pitch, yaw.")
+    half(t, "added_inertia_t_m2", &S::added_mass, 3, unit::t_m2, "Roll, pitch, yaw.")
         .only_when("kind", constant)
         .one_of("added inertia");
     t.rows(
@@ -186,12 +196,10 @@ const Table& hydrodynamics_table() {
          "The whole 6 x 6 matrix instead, symmetric, by rows: surge, sway, heave, roll, pitch, yaw.")
         .only_when("kind", constant)
         .one_of("added mass");
-    t.numbers("damping_kN_s_per_m", {3}, diagonal_setter(&S::damping, 0), unit::kN_s_per_m, not_negative(),
-              "Surge, sway, heave.")
+    half(t, "damping_kN_s_per_m", &S::damping, 0, unit::kN_s_per_m, "Surge, sway, heave.")
         .only_when("kind", constant)
         .one_of("damping");
-    t.numbers("angular_damping_kN_m_s_per_rad", {3}, diagonal_setter(&S::damping, 3), unit::kN_m_s_per_rad,
-              not_negative(), "Roll, pitch, yaw.")
+    half(t, "angular_damping_kN_m_s_per_rad", &S::damping, 3, unit::kN_m_s_per_rad, "Roll, pitch, yaw.")
         .only_when("kind", constant)
         .one_of("angular damping");
     t.rows(
@@ -214,6 +222,16 @@ const Table& hydrodynamics_table() {
     t.number("panel_length_m", &S::panel_length, unit::m, positive(), "Longest panel of the hull.")
         .only_when("kind", {"panels"})
         .absent("an eighth of the breadth, less in short waves");
+    const std::vector<std::string> computed = {"table", "panels", "database"};
+    t.number("added_mass_factor", &S::added_mass_factor, unit::one, positive(),
+             "On the added mass at infinite frequency: a correction, by a fit or by judgement.")
+        .only_when("kind", computed);
+    t.number("radiation_factor", &S::radiation_factor, unit::one, not_negative(),
+             "On the memory of the radiation, that is on the damping and on what the added mass has above that at "
+             "infinite frequency.")
+        .only_when("kind", computed);
+    t.number("diffraction_factor", &S::diffraction_factor, unit::one, any_value(), "On the diffraction force.")
+        .only_when("kind", computed);
     t.text("coupled_with", &S::coupled_with, "Body whose hull and this one feel each other's waves.")
         .only_when("kind", {"panels"})
         .names(Reference::body)
@@ -263,7 +281,7 @@ const Table& sea_table() {
   static const Table table = [] {
     using S = SeaSpec;
     TableOf<S> t("sea", "The water, and the seas the lift can meet.");
-    t.text("active", &S::active, "The sea state of a single run.").names(Reference::sea_state).absent("calm water");
+    t.text("active", &S::active, "The sea state of a single run, or `calm`.").names(Reference::sea_state).absent("calm water");
     t.number("ramp_s", &S::ramp, unit::s, not_negative(), "The waves grow smoothly from nothing over this time.");
     t.number("density_kg_per_m3", &S::density, unit::kg_per_m3, positive(), "Density of the water.");
     t.number("gravity_m_per_s2", &S::gravity, unit::m_per_s2, positive(), "Acceleration of gravity.");

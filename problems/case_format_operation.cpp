@@ -306,8 +306,13 @@ const Table& plan_table() {
     t.map("variables", &S::variables, &VariableSpec::key, &variable_table, "Design variables, by key.");
     t.tables("scenarios", &S::scenarios, "name", &scenario_table, "Scenarios.").absent("sea.active alone");
     t.choice<decltype(&S::aggregate), S::Aggregate>("aggregate", &S::aggregate,
-                                                    {{"mean", S::Aggregate::mean}, {"worst", S::Aggregate::worst}},
-                                                    "Of the objective over scenarios; limits hold in each.");
+                                                    {{"mean", S::Aggregate::mean},
+                                                     {"worst", S::Aggregate::worst},
+                                                     {"tail", S::Aggregate::tail}},
+                                                    "Of the objective over scenarios: mean, the worst one, or the mean "
+                                                    "of a worst share of them (CVaR). Limits hold in each.");
+    t.number("tail_share", &S::tail_share, unit::one, between(0.01, 1.0), "Share of the scenarios that the tail is.")
+        .only_when("aggregate", {"tail"});
     t.text("global_algorithm", &S::global_algorithm,
            "Algorithm of the first part, of NLopt: `isres`, `orig_direct`, `orig_direct_l`; without hard limits also `crs2`, "
            "`esch`, `direct`, `direct_l`; or `none`.");
@@ -352,6 +357,7 @@ const Table& case_table() {
     t.map("limits", &S::limits, &LimitSpec::metric, &limit_table, "Limits, by metric.").absent("none");
     t.table("solver", spec(&Specification::solver), &solver_table, "Time stepping.").absent("defaults");
     t.table("plan", &S::plan, &plan_table, "The search.").absent("no search");
+    t.table("fit", &S::fit, &fit_table, "What is estimated from measured runs.").absent("nothing");
     return t.build();
   }();
   return table;

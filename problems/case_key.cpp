@@ -92,9 +92,25 @@ class Walk {
       fail(section, field.key, fmt::format("is a value, it has no \"{}\"", step));
     const std::size_t index = std::stoul(step);
     const Node* list = node.find(field.key);
+    if (!list) list = default_list(format, field, node);
     if (!list || list->kind != Node::Kind::array || index >= list->items.size())
       fail(section, field.key, fmt::format("has no item {} in this case (the first is 0)", index));
     targets_.push_back({&node, &format, &field, index});
+  }
+
+  /// A list that the document lacks is added with its default numbers, so that one of them can be changed.
+  static const Node* default_list(const Table& format, const Field& field, Node& node) {
+    const std::optional<Value> value = format.default_of(field);
+    if (!value || !std::holds_alternative<std::vector<double>>(*value)) return nullptr;
+    Node& list = node.at(field.key);
+    list.kind = Node::Kind::array;
+    list.position = node.position;
+    for (const double number : std::get<std::vector<double>>(*value)) {
+      Node& item = list.items.emplace_back();
+      item.kind = Node::Kind::number;
+      item.number = number;
+    }
+    return &list;
   }
 
   const std::vector<std::string>& steps_;

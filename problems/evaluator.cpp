@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numeric>
 
 #include "problems/scenarios.h"
 #include "sim/simulate.h"
@@ -74,6 +75,8 @@ Evaluator::Evaluator(Case c, const std::atomic<bool>* stop)
       constraints_(constraints_of(case_)),
       metric_names_(stillhook::metric_names(case_.specification)) {
   check_objective(case_);
+  for (const ObjectiveTerm& term : case_.plan.objective) smooth_names_.push_back(term.metric);
+  for (const ConstraintSpec& constraint : constraints_) smooth_names_.push_back(constraint.metric);
   for (const ScenarioSpec& scenario : scenarios_) in_scenario(case_.specification, scenario);
   baseline_ = baseline_of(case_);
 }
@@ -91,26 +94,30 @@ ScenarioOutcome Evaluator::run_scenario(const Case& c, const ScenarioSpec& scena
   try {
     const Model model = build_model(in_scenario(c.specification, scenario));
     const Operation operation = build_operation(model);
-    double last = 0.0, end = operation.planned_duration();
+    double end = operation.planned_duration();
     RunOptions options;
-    options.progress = [&](double t, double t_end) {
-      last = t;
+    options.progress = [&](double, double t_end) {
       end = t_end;
       return !(stop_ && stop_->load());
     };
-    const Trajectory run = simulate(model, operation, options);
-    outcome.status = run.status;
-    outcome.message = run.message;
-    if (!run.time.empty()) last = std::max(last, run.time.back());
-    outcome.reached = run.status == RunStatus::completed ? 1.0 : std::clamp(end > 0.0 ? last / end : 0.0, 0.0, 1.0);
-    const Metrics metrics = compute_metrics(model.specification(), run);
-    for (std::size_t i = 0; i < metric_names_.size(); ++i) outcome.metrics[i] = metrics.value(metric_names_[i]);
+    note_run(model.specification(), simulate(model, operation, options), end, outcome);
   } catch (const SpecificationError& error) {
     outcome.message = error.what();
   } catch (const CaseError& error) {
     outcome.message = error.what();
   }
   return outcome;
+}
+
+void Evaluator::note_run(const Specification& specification, const Trajectory& run, double planned,
+                         ScenarioOutcome& outcome) const {
+  outcome.status = run.status;
+  outcome.message = run.message;
+  const double last = run.time.empty() ? 0.0 : run.time.back();
+  outcome.reached =
+      run.status == RunStatus::completed ? 1.0 : std::clamp(planned > 0.0 ? last / planned : 0.0, 0.0, 1.0);
+  const Metrics metrics = compute_metrics(specification, run);
+  for (std::size_t i = 0; i < metric_names_.size(); ++i) outcome.metrics[i] = metrics.value(metric_names_[i]);
 }
 
 Evaluation Evaluator::evaluate(const Eigen::VectorXd& x) const {
@@ -165,10 +172,38 @@ double Evaluator::closeness(const ScenarioOutcome& outcome) const {
   return closest;
 }
 
+Eigen::VectorXd Evaluator::scenario_shares(const Eigen::VectorXd& objectives) const {
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(objectives.size());
+  double total = 0.0;
+  for (const ScenarioSpec& s : scenarios_) total += s.weight;
+  if (case_.plan.aggregate == PlanSpec::Aggregate::mean) {
+    for (Eigen::Index i = 0; i < share.size(); ++i) share[i] = scenarios_[static_cast<std::size_t>(i)].weight / total;
+    return share;
+  }
+  // From the worst on, until the tail is full; `worst` is a tail of one scenario.
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(share.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return objectives[a] > objectives[b]; });
+  if (case_.plan.aggregate == PlanSpec::Aggregate::worst) {
+    share[order.front()] = 1.0;
+    return share;
+  }
+  const double tail = case_.plan.tail_share * total;
+  double left = tail;
+  for (const Eigen::Index i : order) {
+    const double taken = std::min(left, scenarios_[static_cast<std::size_t>(i)].weight);
+    share[i] = taken / tail;
+    left -= taken;
+  }
+  return share;
+}
+
 Evaluation Evaluator::aggregated(const std::vector<ScenarioOutcome>& outcomes) const {
   Evaluation e;
   e.usable = true;
-  double reached = 0.0, mean = 0.0, weights = 0.0, worst = -std::numeric_limits<double>::infinity();
+  double reached = 0.0;
+  Eigen::VectorXd objectives(static_cast<Eigen::Index>(outcomes.size()));
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const ScenarioOutcome& outcome = outcomes[i];
     e.details.push_back(static_cast<double>(outcome.status));
@@ -184,9 +219,7 @@ Evaluation Evaluator::aggregated(const std::vector<ScenarioOutcome>& outcomes) c
     }
     e.usable = e.usable && good;
     reached += outcome.reached / static_cast<double>(outcomes.size());
-    mean += scenarios_[i].weight * value;
-    weights += scenarios_[i].weight;
-    worst = std::max(worst, value);
+    objectives[static_cast<Eigen::Index>(i)] = value;
   }
   const Eigen::Index m = static_cast<Eigen::Index>(constraints_.size());
   if (!e.usable) {
@@ -194,7 +227,7 @@ Evaluation Evaluator::aggregated(const std::vector<ScenarioOutcome>& outcomes) c
     e.constraints = Eigen::VectorXd::Constant(m, 2.0 - reached);
     return e;
   }
-  e.objective = case_.plan.aggregate == PlanSpec::Aggregate::worst ? worst : mean / weights;
+  e.objective = scenario_shares(objectives).dot(objectives);
   e.constraints.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const ConstraintSpec& constraint = constraints_[static_cast<std::size_t>(i)];
@@ -240,21 +273,18 @@ std::vector<ScenarioOutcome> Evaluator::outcomes(const Evaluation& evaluation) c
 
 std::vector<TermValue> Evaluator::terms(const Evaluation& evaluation) const {
   const std::vector<ScenarioOutcome> all = outcomes(evaluation);
-  std::size_t worst = 0;
-  for (std::size_t i = 1; i < all.size(); ++i)
-    if (objective_of(all[i]) > objective_of(all[worst])) worst = i;
+  Eigen::VectorXd objectives(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) objectives[static_cast<Eigen::Index>(i)] = objective_of(all[i]);
+  const bool known = evaluation.usable && !all.empty();
+  const Eigen::VectorXd share = known ? scenario_shares(objectives) : Eigen::VectorXd();
   std::vector<TermValue> terms;
   for (const ObjectiveTerm& term : case_.plan.objective) {
     TermValue t{term, kNaN, kNaN};
-    if (evaluation.usable && case_.plan.aggregate == PlanSpec::Aggregate::worst) {
-      t.value = metric_of(all[worst], term.metric);
-    } else if (evaluation.usable) {
-      double sum = 0.0, weights = 0.0;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        sum += scenarios_[i].weight * metric_of(all[i], term.metric);
-        weights += scenarios_[i].weight;
-      }
-      t.value = sum / weights;
+    if (known) {
+      t.value = 0.0;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (const double part = share[static_cast<Eigen::Index>(i)]; part > 0.0)
+          t.value += part * metric_of(all[i], term.metric);
     }
     t.contribution = term.weight * t.value / term.scale;
     terms.push_back(t);

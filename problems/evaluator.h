@@ -18,6 +18,7 @@
 #include "problems/case.h"
 #include "problems/search/problem.h"
 #include "results/metrics.h"
+#include "results/smooth_metrics.h"
 
 namespace stillhook {
 
@@ -64,6 +65,12 @@ class Evaluator {
   /// once. The result does not depend on the number of threads. Throws only for a fault of the program.
   Evaluation evaluate(const Eigen::VectorXd& x) const;
 
+  /// The same with smooth counterparts of the metrics (smooth_metrics.h) in objective and constraints, and with their
+  /// exact derivatives when `gradient`. `details` holds the metrics as they are.
+  Evaluation evaluate_smooth(const Eigen::VectorXd& x, const SmoothOptions& smooth, bool gradient) const;
+  /// The smooth problem; it refers to this evaluator, which must outlive it.
+  SearchProblem smooth_problem(const SmoothOptions& smooth) const;
+
   /// The problem; it refers to this evaluator, which must outlive it.
   SearchProblem problem() const;
 
@@ -79,8 +86,24 @@ class Evaluator {
   Evaluation aggregated(const std::vector<ScenarioOutcome>& outcomes) const;
 
  private:
+  /// What a scenario's smooth metrics are, and their derivatives: rows as in smooth_names_, a column each variable.
+  struct SmoothOutcome {
+    ScenarioOutcome outcome;
+    Eigen::VectorXd value;
+    Eigen::MatrixXd slope;
+    bool valid = false;  // the derivatives
+  };
+  SmoothOutcome run_smooth(const Case& c, const ScenarioSpec& scenario, const SmoothOptions& smooth,
+                           bool gradient) const;
+  Eigen::VectorXd smooth_values(const Trajectory& run, const SmoothOptions& smooth) const;
+  Evaluation aggregated_smooth(const std::vector<SmoothOutcome>& outcomes, bool gradient) const;
+  void note_run(const Specification& specification, const Trajectory& run, double planned,
+                ScenarioOutcome& outcome) const;
+
   ScenarioOutcome run_scenario(const Case& c, const ScenarioSpec& scenario) const;
   double objective_of(const ScenarioOutcome& outcome) const;
+  /// How much each scenario counts in the aggregated objective; they sum to one.
+  Eigen::VectorXd scenario_shares(const Eigen::VectorXd& objectives) const;
   double constraint_of(const ScenarioOutcome& outcome, const ConstraintSpec& constraint) const;
   double metric_of(const ScenarioOutcome& outcome, const std::string& name) const;
 
@@ -89,6 +112,7 @@ class Evaluator {
   std::vector<ScenarioSpec> scenarios_;
   std::vector<ConstraintSpec> constraints_;
   std::vector<std::string> metric_names_;
+  std::vector<std::string> smooth_names_;  // metrics of the objective's terms, then of the constraints
   Eigen::VectorXd baseline_;
 };
 

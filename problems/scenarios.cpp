@@ -17,6 +17,10 @@ Specification in_scenario(Specification specification, const ScenarioSpec& scena
   const auto state =
       std::find_if(states.begin(), states.end(), [&](const SeaStateSpec& s) { return s.name == scenario.sea; });
   const std::string where = "plan.scenarios." + scenario.name;
+  if (state == states.end() && scenario.sea == "calm") {
+    specification.sea.active = scenario.sea;
+    return specification;
+  }
   if (state == states.end()) throw CaseError(where + ".sea: there is no sea state \"" + scenario.sea + "\"");
   const bool irregular = state->type == Type::jonswap || state->type == Type::pierson_moskowitz;
   if (scenario.phase && state->type != Type::regular)

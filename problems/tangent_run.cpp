@@ -1,36 +1,108 @@
 #include "problems/tangent_run.h"
 
+#include <omp.h>
+
+#include <cmath>
+#include <exception>
+
 namespace stillhook {
 
-// For the time being by central differences of whole runs.
-TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const RunOptions& options) {
-  if (request.from || request.by_initial_state) throw CaseError("derivatives by the initial state are not there yet");
-  const auto run = [&](const Case& changed) {
-    Specification specification = changed.specification;
-    if (request.until > 0.0) specification.solver.max_duration = request.until;
-    const Model model = build_model(specification);
-    return simulate(model, build_operation(model), options);
+namespace {
+
+// Half the width of a twin, as a share of the key's value or of a hundredth of its range: the second order left out is
+// its square, 1e-8; the statics behind a twin are solved to 1e-10.
+constexpr double kHalfWidth = 1e-4;
+constexpr double kSmallestShare = 0.01;
+
+struct Lift {
+  std::shared_ptr<const Model> model;
+  std::shared_ptr<const Operation> operation;
+};
+
+using Condition = std::function<Specification(const Specification&)>;
+
+Lift lift_of(const Case& c, const Condition& condition) {
+  const auto model =
+      std::make_shared<const Model>(build_model(condition ? condition(c.specification) : c.specification));
+  return {model, std::make_shared<const Operation>(build_operation(*model))};
+}
+
+// A key of the operation's timing leaves the model and every pose as they are.
+bool is_timing(const std::string& key, const Case& base, const Case& changed) {
+  return key.starts_with("operation.phases.") &&
+         same_poses(base.specification.operation, changed.specification.operation);
+}
+
+LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double range, const Condition& condition) {
+  const double x = key_value(c, key);
+  const double half = kHalfWidth * std::max(std::abs(x), kSmallestShare * range);
+  const auto at = [&](double value) {
+    const Case changed = with_values(c, {{key, value}});
+    if (!is_timing(key, c, changed)) return lift_of(changed, condition);
+    return Lift{base.model, std::make_shared<const Operation>(
+                                retimed_operation(*base.model, changed.specification.operation, *base.operation))};
   };
-  TangentRun result;
-  result.trajectory = run(c);
-  const auto samples = static_cast<Eigen::Index>(result.trajectory.time.size());
-  const auto columns = static_cast<Eigen::Index>(request.keys.size());
-  result.tangent.assign(request.channels.size(), Eigen::MatrixXd::Zero(samples, columns));
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const std::string& key = request.keys[static_cast<std::size_t>(j)];
-    const double x = key_value(c, key), step = 1e-5 * std::max(1e-3, std::abs(x));
-    const Trajectory plus = run(with_values(c, {{key, x + step}})), minus = run(with_values(c, {{key, x - step}}));
-    for (std::size_t k = 0; k < request.channels.size(); ++k) {
-      const int channel = plus.find(request.channels[k]);
-      if (channel < 0) throw CaseError("there is no channel '" + request.channels[k] + "'");
-      const auto n = std::min({plus.time.size(), minus.time.size(), result.trajectory.time.size()});
-      for (std::size_t i = 0; i < n; ++i)
-        result.tangent[k](static_cast<Eigen::Index>(i), j) =
-            (plus.values[static_cast<std::size_t>(channel)][i] - minus.values[static_cast<std::size_t>(channel)][i]) /
-            (2.0 * step);
+  const auto try_at = [&](double value) -> std::optional<Lift> {
+    try {
+      return at(value);
+    } catch (const CaseError&) {
+    } catch (const SpecificationError&) {
+    }
+    return std::nullopt;
+  };
+  // At the edge of what the key may be the twin stands on one side.
+  std::optional<Lift> low = try_at(x - half), high = try_at(x + half);
+  double from = x - half, to = x + half;
+  if (!low) low = at(from = x);
+  if (!high) high = at(to = x);
+  LiftTwin twin;
+  twin.model = {low->model, high->model};
+  twin.operation = {low->operation, high->operation};
+  twin.width = to - from;
+  twin.range = range;
+  if (twin.width == 0.0) throw CaseError(key + ": can be moved neither up nor down from " + std::to_string(x));
+  return twin;
+}
+
+}  // namespace
+
+TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const RunOptions& options) {
+  const Lift base = lift_of(c, request.condition);
+  const int keys = static_cast<int>(request.keys.size());
+  std::vector<LiftTwin> twins(request.keys.size());
+  std::vector<std::exception_ptr> errors(request.keys.size());
+#pragma omp parallel for schedule(dynamic, 1) if (!omp_in_parallel())
+  for (int j = 0; j < keys; ++j) {
+    const std::size_t k = static_cast<std::size_t>(j);
+    try {
+      const double range = k < request.ranges.size() ? request.ranges[k]
+                                                     : std::max(1.0, std::abs(key_value(c, request.keys[k])));
+      twins[k] = twin_of(c, base, request.keys[k], range, request.condition);
+    } catch (...) {
+      errors[k] = std::current_exception();
     }
   }
-  result.valid = result.trajectory.status == RunStatus::completed;
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+
+  TangentRun result;
+  for (const LiftTwin& twin : twins) {
+    result.static_poses.push_back({twin.operation[0]->static_poses, twin.operation[1]->static_poses});
+    result.widths.push_back(twin.width);
+  }
+  RunOptions run_with = options;
+  if (request.from) run_with.from = &*request.from;
+  if (request.until > 0.0) run_with.until = request.until;
+  TangentOptions wanted;
+  wanted.channels = request.channels;
+  wanted.by_initial_state = request.by_initial_state;
+  wanted.growth_limit = request.growth_limit;
+  try {
+    result.trajectory =
+        simulate_with_tangents(*base.model, *base.operation, run_with, twins, wanted, result.tangents);
+  } catch (const std::invalid_argument& error) {
+    throw CaseError(std::string("derivatives: ") + error.what());
+  }
   return result;
 }
 

@@ -37,7 +37,7 @@ struct ArchiveStream::Growing {
     define_contacts();
     written = file.define("samples_written", NC_INT, {}, "number of samples written so far", "1");
     write_static_poses(file, run.static_poses);
-    fill(forecast.interval);
+    fill(forecast.begin, forecast.interval);
   }
 
   /// From now on the file has its name.
@@ -63,7 +63,7 @@ struct ArchiveStream::Growing {
   }
 
   /// Every variable that will be written takes its place in the file now.
-  void fill(double interval) {
+  void fill(double begin, double interval) {
     std::vector<int> doubles = samples.channels;
     doubles.insert(doubles.end(), phases.extremes.begin(), phases.extremes.end());
     doubles.insert(doubles.end(), contact_fields.begin(), contact_fields.end());
@@ -75,7 +75,7 @@ struct ArchiveStream::Growing {
     for (const int variable : {phases.timed_out, contact_channel, contact_phase, contact_role})
       file.put_rows(variable, 0, 1, &none);
     std::vector<double> axis(capacity);
-    for (std::size_t i = 0; i < capacity; ++i) axis[i] = static_cast<double>(i) * interval;
+    for (std::size_t i = 0; i < capacity; ++i) axis[i] = begin + static_cast<double>(i) * interval;
     file.put(samples.time, axis);
     file.put(written, std::vector<int>{0});
     file.put(contact_count, std::vector<int>{0});
@@ -160,6 +160,7 @@ ArchiveStream::~ArchiveStream() = default;
 
 void ArchiveStream::open(const Trajectory& run, const SampleForecast& forecast) {
   forecast_ = forecast;
+  synced_ = forecast.begin;
   values_.assign(run.channels.size(), {});
   file_ = std::make_shared<Growing>(path_, title_, run, forecast, room_for(forecast));
   file_->publish();

@@ -4,8 +4,10 @@
 
 #include "results/files.h"
 #include "results/html.h"
+#include "results/replay.h"
 #include "results/report_parts.h"
 #include "results/summary.h"
+#include "results/viewer_bundle.h"
 
 namespace stillhook {
 namespace {
@@ -56,23 +58,43 @@ std::string cost(const ReportData& data) {
   return out;
 }
 
+std::string licences() {
+  return "<details><summary>Licences of the libraries in this page</summary><pre tabindex=\"0\">" +
+         escape_html(viewer_licences()) + "</pre></details>";
+}
+
 }  // namespace
+
+std::string page_head(const std::string& title, const std::string& program_version, bool with_viewer,
+                      const std::string& more_style) {
+  // Nothing may be fetched from anywhere; the one script that may run is named by its hash.
+  std::string out = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+      "data:{}; base-uri 'none'; form-action 'none'\">"
+      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><meta name=\"generator\" "
+      "content=\"stillhook {}\"><link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}",
+      with_viewer ? fmt::format("; script-src '{}'", viewer_hash()) : "", escape_html(program_version), title,
+      report_style() + more_style);
+  if (with_viewer) out += viewer_style();
+  return out + "</style></head>\n";
+}
 
 std::string report_html(const ReportData& data) {
   const RunView view(data.specification, data.trajectory);
-  std::string body;
-  std::string nav;
+  const std::vector<ReportFigure> figures = report_figures(data, view);
+  const bool replay = !viewer_script().empty() && data.trajectory.time.size() >= 2;
+  std::string body, nav;
   const auto section = [&](const char* id, const char* title, const std::string& content) {
     if (content.empty()) return;
     nav += fmt::format("<a href=\"#{}\">{}</a>", id, title);
     body += html_section(id, title, content);
   };
-  section("timeline", "Timeline of the operation", timeline_part(data));
   section("statement", "What is asked", statement(data));
   if (data.search) section("search", "Baseline and plan", search_part(*data.search));
   section("limits", "Limits", limits_part(data));
   section("procedure", "Procedure step by step", procedure_part(data, view));
-  section("plots", "Plots", plots_part(data, view));
+  section("plots", "Plots", plots_part(figures));
   section("metrics", "Metrics", metrics_part(data));
   section("contacts", "Contacts", contacts_part(data));
   section("poses", "Static poses", poses_part(data));
@@ -84,20 +106,20 @@ std::string report_html(const ReportData& data) {
                 "</pre></details>");
 
   const std::string title = escape_html(data.title.empty() ? data.specification.name : data.title);
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:; "
-      "base-uri 'none'; form-action 'none'\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><meta name=\"generator\" "
-      "content=\"stillhook {}\">"
-      "<link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}</style></head>\n"
-      "<body><header><h1>{}</h1><p class=\"muted\">{}</p>{}</header>\n<main><nav "
-      "aria-label=\"Contents\">{}</nav>{}</main>\n"
-      "<footer>stillhook {} · {} · {}</footer></body></html>\n",
-      escape_html(data.program_version), title, report_style(), title,
-      escape_html(sea_sentence(data.specification.sea)), verdict_part(data) + warnings(data), nav, body,
-      escape_html(data.program_version), escape_html(data.specification.name), cost(data));
+  std::string page = fmt::format(
+      "{}<body><header><h1>{}</h1><p class=\"muted\">{}</p></header>\n<main><section id=\"overview\" "
+      "aria-label=\"Overview\"><div class=\"judgement\">{}</div>{}</section>\n<nav "
+      "aria-label=\"Contents\">{}</nav>{}</main>\n<footer>stillhook {} · {} · {}{}</footer>",
+      page_head(title, data.program_version, replay), title, escape_html(sea_sentence(data.specification.sea)),
+      verdict_part(data) + warnings(data), replay_part(data, replay), nav, body, escape_html(data.program_version),
+      escape_html(data.specification.name), cost(data), replay ? licences() : "");
+  if (replay) {
+    page += "<script type=\"text/plain\" id=\"replay-data\">" +
+            replay_text(data, view, build_scene(data.specification, data.trajectory), figures) + "</script>\n<script>";
+    page += viewer_script();
+    page += "</script>";
+  }
+  return page + "</body></html>\n";
 }
 
 void write_report(const ReportData& data, const std::string& path) { write_file(path, report_html(data)); }

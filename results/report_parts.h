@@ -20,6 +20,22 @@ struct Shown {
 /// A metric's value for its catalogue unit; `name` decides which second unit helps (m/min for winches, t for loads).
 Shown show_metric(const std::string& name, const std::string& unit, double value);
 
+/// A plot over time of the report.
+struct ReportFigure {
+  std::string group;  // the heading it stands under
+  Plot plot;
+  std::string caption;
+};
+
+/// The plots of a run, every one with the phases shaded and the limits that apply drawn in; empty without samples.
+std::vector<ReportFigure> report_figures(const ReportData& data, const RunView& view);  // report_plots.cpp
+
+/// The contacts that a report lists; the rest is in history.nc.
+inline constexpr std::size_t kShownContacts = 400;
+
+/// "re-hit", "set-down", ...
+std::string contact_kind(const ReportData& data, const ContactEvent& contact);  // report_tables.cpp
+
 /// "1:02:05" from seconds, "2:05" below an hour.
 std::string clock_time(double seconds);
 
@@ -29,17 +45,21 @@ std::string html_table(const std::vector<std::string>& header, const std::vector
                        int numeric_from = 1);
 std::string html_section(const std::string& id, const std::string& title, const std::string& body);
 
-std::string report_style();                        // report_style.cpp
+std::string report_style();  // report_style.cpp
+/// Everything before <body>. `title` is HTML already. report.cpp
+std::string page_head(const std::string& title, const std::string& program_version, bool with_viewer,
+                      const std::string& more_style = "");
+/// The place of the 3-D replay, or why there is none, and the timeline. report_verdict.cpp
+std::string replay_part(const ReportData& data, bool with_viewer);
 std::string verdict_part(const ReportData& data);  // report_verdict.cpp
-std::string timeline_part(const ReportData& data);
-std::string limits_part(const ReportData& data);  // report_tables.cpp
+std::string limits_part(const ReportData& data);   // report_tables.cpp
 std::string metrics_part(const ReportData& data);
 std::string contacts_part(const ReportData& data);
 std::string procedure_part(const ReportData& data, const RunView& view);  // report_procedure.cpp
 std::string poses_part(const ReportData& data);
 std::string assumptions_part(const ReportData& data);
-std::string plots_part(const ReportData& data, const RunView& view);  // report_plots.cpp
-std::string search_part(const SearchSection& search);                 // report_search.cpp
-std::string sea_sentence(const SeaSpec& sea);                         // report_procedure.cpp
+std::string plots_part(const std::vector<ReportFigure>& figures);  // report_plots.cpp
+std::string search_part(const SearchSection& search);              // report_search.cpp
+std::string sea_sentence(const SeaSpec& sea);                      // report_procedure.cpp
 
 }  // namespace stillhook

@@ -70,40 +70,42 @@ class Plots {
     plot.marker_label = "contact";
   }
 
-  std::string figure(const Plot& plot, const std::string& caption = "") const {
-    if (plot.lines.empty()) return {};
-    return fmt::format("<figure><div class=\"scroll\" tabindex=\"0\">{}</div>{}</figure>", draw_plot(plot),
-                       caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>");
+  /// Starts a new heading.
+  void group(const std::string& title) { group_ = title; }
+  /// Keeps a plot that shows something.
+  void add(Plot plot, const std::string& caption = "") {
+    if (!plot.lines.empty()) figures_.push_back({group_, std::move(plot), caption});
   }
+  std::vector<ReportFigure> take() { return std::move(figures_); }
 
  private:
   const ReportData& data_;
   const RunView& view_;
   std::vector<PlotPhase> phases_;
+  std::string group_;
+  std::vector<ReportFigure> figures_;
 };
 
-std::string load_plots(const ReportData& data, const Plots& plots) {
+void load_plots(const ReportData& data, Plots& plots) {
   const std::string& load = data.specification.operation.load;
-  std::string out;
   for (const auto& [axis, title] :
        {std::pair{"x", "Load, fore and aft (x)"}, {"y", "Load, athwart (y)"}, {"z", "Load, height (z)"}}) {
     Plot plot = plots.make(title, "position, m");
     plots.line(plot, load + "." + axis, "load", 1.0);
     plots.static_line(plot, load + "." + axis, "calm water", 1.0);
     plots.contacts(plot);
-    out += plots.figure(plot);
+    plots.add(std::move(plot));
   }
   for (const auto& [axis, title] : {std::pair{"roll", "Load, roll"}, {"pitch", "Load, pitch"}, {"yaw", "Load, yaw"}}) {
     Plot plot = plots.make(title, "angle, °");
     plot.height = 210.0;
     plots.line(plot, load + "." + axis, "load", kDegrees);
-    out += plots.figure(plot);
+    plots.add(std::move(plot));
   }
-  return out;
 }
 
 /// Hoist wire tensions with the band from static tension to the DAF limit.
-std::string hoist_plot(const ReportData& data, const RunView& view, const Plots& plots) {
+void hoist_plot(const ReportData& data, const RunView& view, Plots& plots) {
   Plot plot = plots.make("Hoist wire tensions", "tension, t");
   double static_sum = 0.0, limit = std::numeric_limits<double>::quiet_NaN();
   int count = 0;
@@ -124,9 +126,9 @@ std::string hoist_plot(const ReportData& data, const RunView& view, const Plots&
     plot.ranges.push_back({fmt::format("static to DAF {}", readable_number(limit)), at_rest, at_rest * limit});
   }
   plots.contacts(plot);
-  return plots.figure(plot,
-                      "The band reaches from the mean static tension of a fall while hanging to that tension times the "
-                      "smallest DAF limit.");
+  plots.add(std::move(plot),
+            "The band reaches from the mean static tension of a fall while hanging to that tension times the "
+            "smallest DAF limit.");
 }
 
 /// Breaks the lines of hoist wire angles where the wire is slack: its direction means nothing there.
@@ -141,18 +143,18 @@ void blank_slack(const ReportData& data, const RunView& view, Plot& plot) {
   }
 }
 
-std::string wire_plots(const ReportData& data, const RunView& view, const Plots& plots) {
-  std::string out = hoist_plot(data, view, plots);
+void wire_plots(const ReportData& data, const RunView& view, Plots& plots) {
+  hoist_plot(data, view, plots);
   Plot other = plots.make("Luffing, stay and other wires", "tension, t");
   for (const WireSpec& wire : data.specification.wires)
     if (wire.role != WireSpec::Role::hoist)
       plots.line(other, wire.name + ".tension", readable_name(wire.name), kTonnes);
-  out += plots.figure(other);
+  plots.add(std::move(other));
   Plot rates = plots.make("Winch rates (hauling in positive)", "rate, m/min");
   for (const DriveSpec& drive : data.specification.drives)
     if (drive.kind == DriveSpec::Kind::winch)
       plots.line(rates, drive.name + ".rate", readable_name(drive.name), kPerMinute);
-  out += plots.figure(rates);
+  plots.add(std::move(rates));
   for (const auto& [quantity, title, metric] : {std::tuple{".off_lead", "Off-lead of the hoist wires", "offlead_max"},
                                                 {".side_lead", "Side-lead of the hoist wires", "sidelead_max"}}) {
     Plot lead = plots.make(title, "angle, °");
@@ -161,12 +163,11 @@ std::string wire_plots(const ReportData& data, const RunView& view, const Plots&
         plots.line(lead, wire.name + quantity, readable_name(wire.name), kDegrees);
     blank_slack(data, view, lead);
     plots.limit(lead, metric, 1.0, "°", true);
-    out += plots.figure(lead);
+    plots.add(std::move(lead));
   }
-  return out;
 }
 
-std::string line_plots(const ReportData& data, const Plots& plots) {
+void line_plots(const ReportData& data, Plots& plots) {
   Plot tension = plots.make("Tagline tensions", "tension, t"),
        speed = plots.make("Tagline line speeds (paying out positive)", "speed, m/min");
   bool speed_limited = false;
@@ -184,11 +185,12 @@ std::string line_plots(const ReportData& data, const Plots& plots) {
   Plot mooring = plots.make("Mooring line tensions", "tension, t");
   for (const MooringSpec& line : data.specification.moorings)
     plots.line(mooring, line.name + ".tension", readable_name(line.name), kTonnes);
-  return plots.figure(tension) + plots.figure(speed) + plots.figure(mooring);
+  plots.add(std::move(tension));
+  plots.add(std::move(speed));
+  plots.add(std::move(mooring));
 }
 
-std::string geometry_plots(const ReportData& data, const Plots& plots) {
-  std::string out;
+void geometry_plots(const ReportData& data, Plots& plots) {
   Plot clearance = plots.make("Clearances", "distance, m");
   double shown_limit = std::numeric_limits<double>::quiet_NaN();
   for (ClearanceSeries& series : compute_clearances(data.specification, data.trajectory)) {
@@ -201,7 +203,7 @@ std::string geometry_plots(const ReportData& data, const Plots& plots) {
       }
     clearance.lines.push_back({readable_name(series.name), std::move(series.time), std::move(series.distance)});
   }
-  out += plots.figure(clearance);
+  plots.add(std::move(clearance));
   const std::string& crane = data.specification.operation.crane;
   for (const auto& [quantity, title, metric] : {std::tuple{".roll", "Heel of the crane", "heel_max"},
                                                 {".pitch", "Trim of the crane (bow down positive)", "trim_max"}}) {
@@ -210,23 +212,43 @@ std::string geometry_plots(const ReportData& data, const Plots& plots) {
     plots.line(plot, crane + quantity, "in waves", kDegrees);
     plots.static_line(plot, crane + quantity, "calm water", kDegrees);
     plots.limit(plot, metric, 1.0, "°", true);
-    out += plots.figure(plot);
+    plots.add(std::move(plot));
   }
   Plot contact = plots.make("Contact forces", "normal force, t");
   for (const ContactSpec& spec : data.specification.contacts)
     plots.line(contact, spec.name + ".force", readable_name(spec.name), kTonnes);
   plots.contacts(contact);
-  return out + plots.figure(contact);
+  plots.add(std::move(contact));
 }
 
 }  // namespace
 
-std::string plots_part(const ReportData& data, const RunView& view) {
-  if (data.trajectory.time.size() < 2) return "<p>No samples were recorded.</p>";
-  const Plots plots(data, view);
-  return "<h3>Load</h3>" + load_plots(data, plots) + "<h3>Wires and winches</h3>" + wire_plots(data, view, plots) +
-         "<h3>Taglines and moorings</h3>" + line_plots(data, plots) + "<h3>Geometry, vessel and contact</h3>" +
-         geometry_plots(data, plots);
+std::vector<ReportFigure> report_figures(const ReportData& data, const RunView& view) {
+  if (data.trajectory.time.size() < 2) return {};
+  Plots plots(data, view);
+  plots.group("Load");
+  load_plots(data, plots);
+  plots.group("Wires and winches");
+  wire_plots(data, view, plots);
+  plots.group("Taglines and moorings");
+  line_plots(data, plots);
+  plots.group("Geometry, vessel and contact");
+  geometry_plots(data, plots);
+  return plots.take();
+}
+
+std::string plots_part(const std::vector<ReportFigure>& figures) {
+  if (figures.empty()) return "<p>No samples were recorded.</p>";
+  std::string out, group;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const ReportFigure& figure = figures[i];
+    if (figure.group != group) out += "<h3>" + figure.group + "</h3>";
+    group = figure.group;
+    out += fmt::format("<figure data-plot=\"{}\"><div class=\"scroll\" tabindex=\"0\">{}</div>{}</figure>", i,
+                       draw_plot(figure.plot),
+                       figure.caption.empty() ? "" : "<figcaption>" + figure.caption + "</figcaption>");
+  }
+  return out;
 }
 
 }  // namespace stillhook

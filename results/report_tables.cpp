@@ -19,7 +19,12 @@ std::string cell(const std::string& name, const std::string& unit, double value)
   return text;
 }
 
-std::string when(double time) { return std::isfinite(time) ? clock_time(time) : "–"; }
+/// A time that the viewer turns into a way to jump there.
+std::string event_time(double time) {
+  return fmt::format("<span data-time=\"{:.3f}\">{}</span>", time, clock_time(time));
+}
+
+std::string when(double time) { return std::isfinite(time) ? event_time(time) : "–"; }
 
 std::string phase_cell(const std::string& phase) { return phase.empty() ? "–" : escape_html(readable_name(phase)); }
 
@@ -147,24 +152,25 @@ std::string metrics_part(const ReportData& data) {
   return out;
 }
 
+std::string contact_kind(const ReportData& data, const ContactEvent& contact) {
+  const double run_start = data.trajectory.phases.empty() ? 0.0 : data.trajectory.phases.front().start;
+  if (contact.start <= run_start) return "at rest at the start";
+  if (contact.role == ContactSpec::Role::target) return "set-down";
+  if (contact.role == ContactSpec::Role::other) return "contact";
+  return contact.start > data.metrics.value("lift_off_time") ? "re-hit" : "before lift-off";
+}
+
 std::string contacts_part(const ReportData& data) {
   const std::vector<ContactEvent>& contacts = data.trajectory.contacts;
   if (contacts.empty()) return "<p>Nothing touched.</p>";
-  constexpr std::size_t kShown = 60;
-  const double lift_off = data.metrics.value("lift_off_time");
-  const double run_start = data.trajectory.phases.empty() ? 0.0 : data.trajectory.phases.front().start;
   std::vector<std::vector<std::string>> rows;
   for (const ContactEvent& c : contacts) {
-    if (rows.size() == kShown) break;
-    const char* kind = c.start <= run_start ? "at rest at the start"
-                       : c.role == ContactSpec::Role::pickup && c.start > lift_off
-                           ? "<span class=\"fail\">re-hit</span>"
-                       : c.role == ContactSpec::Role::pickup ? "before lift-off"
-                       : c.role == ContactSpec::Role::target ? "set-down"
-                                                             : "contact";
-    rows.push_back({escape_html(readable_name(c.contact)), kind, clock_time(c.start), fixed_number(c.end - c.start, 1),
-                    fixed_number(c.approach_speed, 3), fixed_number(c.peak_force / 1000.0 / kGravity, 1),
-                    fixed_number(c.impulse / 1000.0, 1),
+    if (rows.size() == kShownContacts) break;
+    const std::string kind = contact_kind(data, c);
+    rows.push_back({escape_html(readable_name(c.contact)),
+                    kind == "re-hit" ? "<span class=\"fail\">re-hit</span>" : kind, event_time(c.start),
+                    fixed_number(c.end - c.start, 1), fixed_number(c.approach_speed, 3),
+                    fixed_number(c.peak_force / 1000.0 / kGravity, 1), fixed_number(c.impulse / 1000.0, 1),
                     fmt::format("{}, {}, {}", fixed_number(c.place.x(), 2), fixed_number(c.place.y(), 2),
                                 fixed_number(c.place.z(), 2)),
                     phase_cell(c.phase)});
@@ -172,8 +178,8 @@ std::string contacts_part(const ReportData& data) {
   std::string out = html_table({"contact", "kind", "time", "length, s", "approach speed, m/s", "peak force, t",
                                 "impulse, kN s", "place x, y, z, m", "phase"},
                                rows, -1);
-  if (contacts.size() > kShown)
-    out += fmt::format("<p><small>The first {} of {} contacts; all are in history.nc.</small></p>", kShown,
+  if (contacts.size() > kShownContacts)
+    out += fmt::format("<p><small>The first {} of {} contacts; all are in history.nc.</small></p>", kShownContacts,
                        contacts.size());
   return out;
 }

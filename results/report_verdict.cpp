@@ -7,6 +7,7 @@
 #include "results/html.h"
 #include "results/report_parts.h"
 #include "results/summary.h"
+#include "results/viewer_bundle.h"
 
 namespace stillhook {
 namespace {
@@ -64,6 +65,38 @@ std::string tile(const ReportData& data, const char* metric, const char* label, 
   return fmt::format("<div class=\"tile\"><b>{} <span>{}</span></b><div>{}</div></div>", value, unit, label);
 }
 
+/// The phases to scale, numbered and named, with marks for contacts.
+std::string timeline(const ReportData& data) {
+  const std::vector<PhaseRecord>& phases = data.trajectory.phases;
+  if (phases.empty()) return "<p>No phase was begun.</p>";
+  const double start = phases.front().start, span = std::max(1e-9, phases.back().end - start);
+  std::string bars, list, ticks;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const PhaseRecord& p = phases[i];
+    const double share = 100.0 * (p.end - p.start) / span;
+    const char* cls = stage_class(p.stage);
+    bars += fmt::format("<i class=\"{}\" style=\"width:{:.3f}%\" title=\"{}\">{}</i>", cls, share,
+                        escape_html(readable_name(p.name)), share > 2.2 ? std::to_string(i + 1) : "");
+    list += fmt::format("<li><b class=\"{}\">{}</b><span>{}{}</span><small>{} + {}</small></li>", cls, i + 1,
+                        escape_html(readable_name(p.name)),
+                        p.event_timed_out ? " <span class=\"warn\">event timed out</span>" : "", clock_time(p.start),
+                        clock_time(p.end - p.start));
+  }
+  std::size_t shown = 0;
+  for (const ContactEvent& c : data.trajectory.contacts)
+    if (c.start > start && shown++ < 400)
+      ticks += fmt::format("<b style=\"left:{:.2f}%\" title=\"{} at {}\"></b>", 100.0 * (c.start - start) / span,
+                           escape_html(c.contact), clock_time(c.start));
+  return fmt::format(
+      "<div class=\"track\" role=\"img\" aria-label=\"Phases of the operation to scale\">{}</div>"
+      "<div class=\"ticks\" aria-hidden=\"true\">{}</div>{}<ol class=\"phases\">{}</ol>"
+      "<small>Start + duration, h:min:s. Colours: "
+      "<b style=\"color:#5b6672\">on the barge</b>, <b style=\"color:#a83a00\">load transfer</b>, "
+      "<b style=\"color:#005c94\">hanging</b>, <b style=\"color:#87357a\">set-down</b>, "
+      "<b style=\"color:#00603a\">landed</b>.</small>",
+      bars, ticks, ticks.empty() ? "" : "<small>Marks under the bar: contacts.</small>", list);
+}
+
 }  // namespace
 
 std::string verdict_part(const ReportData& data) {
@@ -102,35 +135,16 @@ std::string verdict_part(const ReportData& data) {
   return out + "</div>";
 }
 
-std::string timeline_part(const ReportData& data) {
-  const std::vector<PhaseRecord>& phases = data.trajectory.phases;
-  if (phases.empty()) return "<p>No phase was begun.</p>";
-  const double start = phases.front().start, span = std::max(1e-9, phases.back().end - start);
-  std::string bars, list, ticks;
-  for (std::size_t i = 0; i < phases.size(); ++i) {
-    const PhaseRecord& p = phases[i];
-    const double share = 100.0 * (p.end - p.start) / span;
-    const char* cls = stage_class(p.stage);
-    bars += fmt::format("<i class=\"{}\" style=\"width:{:.3f}%\" title=\"{}\">{}</i>", cls, share,
-                        escape_html(readable_name(p.name)), share > 2.2 ? std::to_string(i + 1) : "");
-    list += fmt::format("<li><b class=\"{}\">{}</b><span>{}{}</span><small>{} + {}</small></li>", cls, i + 1,
-                        escape_html(readable_name(p.name)),
-                        p.event_timed_out ? " <span class=\"warn\">event timed out</span>" : "", clock_time(p.start),
-                        clock_time(p.end - p.start));
-  }
-  std::size_t shown = 0;
-  for (const ContactEvent& c : data.trajectory.contacts)
-    if (c.start > start && shown++ < 400)
-      ticks += fmt::format("<b style=\"left:{:.2f}%\" title=\"{} at {}\"></b>", 100.0 * (c.start - start) / span,
-                           escape_html(c.contact), clock_time(c.start));
-  return fmt::format(
-      "<div class=\"track\" role=\"img\" aria-label=\"Phases of the operation to scale\">{}</div>"
-      "<div class=\"ticks\" aria-hidden=\"true\">{}</div>{}<ol class=\"phases\">{}</ol>"
-      "<small>Start + duration, h:min:s. Colours: "
-      "<b style=\"color:#5b6672\">on the barge</b>, <b style=\"color:#a83a00\">load transfer</b>, "
-      "<b style=\"color:#005c94\">hanging</b>, <b style=\"color:#87357a\">set-down</b>, "
-      "<b style=\"color:#00603a\">landed</b>.</small>",
-      bars, ticks, ticks.empty() ? "" : "<small>Marks under the bar: contacts.</small>", list);
+std::string replay_part(const ReportData& data, bool with_viewer) {
+  std::string stage;
+  if (with_viewer)
+    stage =
+        "<div id=\"stage\"><p class=\"muted\">The 3-D replay starts here in a browser with JavaScript and "
+        "WebGL 2.</p></div>";
+  else
+    stage = fmt::format("<p class=\"muted\">There is no 3-D replay in this report: {}.</p>",
+                        viewer_missing().empty() ? "nothing was recorded" : escape_html(viewer_missing()));
+  return "<div class=\"replay\" id=\"replay\">" + stage + timeline(data) + "</div>";
 }
 
 }  // namespace stillhook

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kJointGap = 0.05;     // m, apart at the given poses: rounding in a case file, not a mistake
 constexpr double kCalm = -1.0;         // s, before the waves start
-constexpr double kAngleHeld = 1e-7;    // rad
+constexpr double kAngleHeld = 1e-10;   // rad
 constexpr double kLengthProbe = 1e-3;  // m
 constexpr int kHoldRounds = 20;
 constexpr double kLoose = 2.0;  // length over distance of a wire that is out of the way

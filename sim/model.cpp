@@ -1,5 +1,7 @@
 #include "sim/model.h"
 
+#include <limits>
+
 #include "sim/hull/hydrodynamics.h"
 #include "sim/recorder.h"
 
@@ -30,7 +32,11 @@ Matrix6 Model::added_mass(int body, double frequency) const {
     return about_point(spec.hydrodynamics.added_mass, spec.cog);
   const BodyCoefficients& from = coefficients_[body];
   if (!from.set) return Matrix6::Zero();
-  return added_mass_at(*from.set, from.hull, spec.cog - Vector3(0.0, 0.0, from.reference_height), frequency);
+  const Vector3 cog = spec.cog - Vector3(0.0, 0.0, from.reference_height);
+  const HydrodynamicsSpec& h = spec.hydrodynamics;
+  const Matrix6 A_inf = added_mass_at(*from.set, from.hull, cog, std::numeric_limits<double>::infinity());
+  return h.added_mass_factor * A_inf +
+         h.radiation_factor * (added_mass_at(*from.set, from.hull, cog, frequency) - A_inf);
 }
 
 std::map<std::string, double> channel_values(const Model& model, const SystemState& state) {

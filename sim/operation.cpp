@@ -49,39 +49,77 @@ double Operation::planned_duration() const {
   return sum;
 }
 
+namespace {
+
+// The phase with its moves, whose travels are known.
+Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<double>& travels) {
+  Phase phase;
+  phase.name = spec.name;
+  phase.stage = spec.stage;
+  phase.wait_for = spec.wait_for;
+  if (spec.wait_for.type == EventSpec::Type::clear_of_contact) {
+    phase.wait_contact = model.element_index(spec.wait_for.contact);
+    if (phase.wait_contact < 0)
+      throw SpecificationError(entry_of(spec), "wait_for", "there is no contact '" + spec.wait_for.contact + "'");
+  }
+  phase.duration = spec.duration;
+  for (std::size_t i = 0; i < spec.moves.size(); ++i) {
+    const MoveSpec& move = spec.moves[i];
+    const std::string entry = entry_of(spec) + ".moves." + move.drive;
+    Move m;
+    m.drive = model.drive_index(move.drive);
+    m.delay = move.delay;
+    m.background = move.background;
+    if (std::abs(travels[i]) > 0.0) m.profile = RateProfile(move.profile, travels[i], move.speed);
+    check_limits_of(model.specification().drives[m.drive], m.profile, entry);
+    if (!m.background) phase.duration = std::max(phase.duration, m.delay + m.profile.duration());
+    phase.moves.push_back(std::move(m));
+  }
+  return phase;
+}
+
+bool same_target(const CoordinateSpec& a, const CoordinateSpec& b) {
+  return a.body == b.body && a.point == b.point && a.axis == b.axis && a.relative_to == b.relative_to &&
+         a.joint == b.joint && a.wire == b.wire;
+}
+
+bool same_end(const MoveSpec& a, const MoveSpec& b) {
+  return a.drive == b.drive && a.travel == b.travel && a.goal.has_value() == b.goal.has_value() &&
+         (!a.goal || (same_target(*a.goal, *b.goal) && a.goal_value == b.goal_value));
+}
+
+}  // namespace
+
 Operation build_operation(const Model& model) {
-  const Specification& specification = model.specification();
   Operation operation;
   SystemState state = model.initial_state();
   operation.static_poses.push_back(static_pose(model, state, "start"));
-  for (const PhaseSpec& spec : specification.operation.phases) {
+  for (const PhaseSpec& spec : model.specification().operation.phases) {
     state.phase = static_cast<int>(operation.phases.size());
-    Phase phase;
-    phase.name = spec.name;
-    phase.stage = spec.stage;
-    phase.wait_for = spec.wait_for;
-    if (spec.wait_for.type == EventSpec::Type::clear_of_contact) {
-      phase.wait_contact = model.element_index(spec.wait_for.contact);
-      if (phase.wait_contact < 0)
-        throw SpecificationError(entry_of(spec), "wait_for", "there is no contact '" + spec.wait_for.contact + "'");
-    }
-    phase.duration = spec.duration;
     const std::vector<double> travels =
         spec.moves.empty() ? std::vector<double>{} : work_out_travels(model, spec, state);
-    for (std::size_t i = 0; i < spec.moves.size(); ++i) {
-      const MoveSpec& move = spec.moves[i];
-      const std::string entry = entry_of(spec) + ".moves." + move.drive;
-      Move m;
-      m.drive = model.drive_index(move.drive);
-      m.delay = move.delay;
-      m.background = move.background;
-      if (std::abs(travels[i]) > 0.0) m.profile = RateProfile(move.profile, travels[i], move.speed);
-      check_limits_of(specification.drives[m.drive], m.profile, entry);
-      if (!m.background) phase.duration = std::max(phase.duration, m.delay + m.profile.duration());
-      phase.moves.push_back(std::move(m));
-    }
-    operation.phases.push_back(std::move(phase));
+    operation.phases.push_back(timed_phase(model, spec, travels));
     operation.static_poses.push_back(static_pose(model, state, spec.name));
+  }
+  return operation;
+}
+
+bool same_poses(const OperationSpec& a, const OperationSpec& b) {
+  if (a.phases.size() != b.phases.size()) return false;
+  for (std::size_t i = 0; i < a.phases.size(); ++i) {
+    const auto &p = a.phases[i].moves, &q = b.phases[i].moves;
+    if (p.size() != q.size() || !std::equal(p.begin(), p.end(), q.begin(), same_end)) return false;
+  }
+  return true;
+}
+
+Operation retimed_operation(const Model& model, const OperationSpec& spec, const Operation& like) {
+  Operation operation;
+  operation.static_poses = like.static_poses;
+  for (std::size_t i = 0; i < spec.phases.size(); ++i) {
+    std::vector<double> travels;
+    for (const Move& move : like.phases[i].moves) travels.push_back(move.profile.travel());
+    operation.phases.push_back(timed_phase(model, spec.phases[i], travels));
   }
   return operation;
 }

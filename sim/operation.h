@@ -38,6 +38,13 @@ struct Operation {
 /// SpecificationError when a goal cannot be reached or a drive's limits are broken.
 Operation build_operation(const Model& model);
 
+/// True if both ask for the same phases and moves with the same travels and goals: they differ at most in timing
+/// (speeds, profiles, delays, durations, waits), so that every pose is the same.
+bool same_poses(const OperationSpec& a, const OperationSpec& b);
+
+/// The operation of `spec` with the travels and poses of `like`, which was built on this model and has the same poses.
+Operation retimed_operation(const Model& model, const OperationSpec& spec, const Operation& like);
+
 /// The reported poses of the specification (Specification::poses), each a static equilibrium.
 std::vector<StaticPose> solve_poses(const Model& model);
 

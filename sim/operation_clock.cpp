@@ -6,32 +6,51 @@ namespace stillhook {
 
 OperationClock::OperationClock(const Operation& operation, int drives) : operation_(operation), base_(drives, 0.0) {}
 
-bool OperationClock::due(const Phase& next, double t, const Recorder& recorder, double& start, bool& timed_out) const {
+bool OperationClock::due(const Phase& next, double t, const Recorder& recorder, double& start, Cause& cause) const {
   if (t < phase_end_) return false;
   start = phase_end_;
-  timed_out = false;
+  cause = Cause::time;
   if (next.wait_for.type == EventSpec::Type::none) return true;
-  start = t;
-  if (recorder.clear_for(next.wait_contact, t) >= next.wait_for.hold) return true;
-  timed_out = t >= phase_end_ + next.wait_for.timeout;
-  return timed_out;
+  const double clear_from = recorder.parted_at(next.wait_contact) + next.wait_for.hold;
+  if (clear_from <= t) {
+    if (clear_from > phase_end_) {
+      start = clear_from;
+      cause = Cause::event;
+    }
+    return true;
+  }
+  start = phase_end_ + next.wait_for.timeout;
+  cause = Cause::timeout;
+  return t >= start;
+}
+
+int OperationClock::awaited_contact() const {
+  const std::size_t next = static_cast<std::size_t>(phase_ + 1);
+  if (next >= operation_.phases.size()) return -1;
+  const Phase& phase = operation_.phases[next];
+  return phase.wait_for.type == EventSpec::Type::none ? -1 : phase.wait_contact;
+}
+
+void OperationClock::open_next(double start, Cause cause) {
+  const Phase& next = operation_.phases[static_cast<std::size_t>(++phase_)];
+  openings_.push_back({start, cause});
+  phase_end_ = start + next.duration;
+  for (const Move& move : next.moves) running_.push_back({&move, start + move.delay});
+  std::erase_if(running_, [&](const Running& r) {
+    if (r.start + r.move->profile.duration() > start) return false;
+    base_[r.move->drive] += r.move->profile.travel();
+    return true;
+  });
 }
 
 void OperationClock::advance(double t, Recorder& recorder) {
   while (phase_ + 1 < static_cast<int>(operation_.phases.size())) {
     const Phase& next = operation_.phases[phase_ + 1];
     double start = 0.0;
-    bool timed_out = false;
-    if (!due(next, t, recorder, start, timed_out)) return;
-    ++phase_;
-    phase_end_ = start + next.duration;
-    for (const Move& move : next.moves) running_.push_back({&move, start + move.delay});
-    recorder.open_phase(next.name, next.stage, start, timed_out);
-    std::erase_if(running_, [&](const Running& r) {
-      if (r.start + r.move->profile.duration() > start) return false;
-      base_[r.move->drive] += r.move->profile.travel();
-      return true;
-    });
+    Cause cause = Cause::time;
+    if (!due(next, t, recorder, start, cause)) return;
+    open_next(start, cause);
+    recorder.open_phase(next.name, next.stage, start, cause == Cause::timeout);
   }
 }
 

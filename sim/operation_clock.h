@@ -1,4 +1,8 @@
 // Runs through the phases of an operation: which phase it is, and where every drive stands.
+//
+// A phase starts when the one before it has ended, at a time that need not be a step, or, if it waits for a contact to
+// be clear, when that has been clear for the wanted time: counted from the parting, which lies between two steps as
+// well. So every start is a continuous function of the operation's numbers as long as the same things happen.
 #pragma once
 
 #include <vector>
@@ -8,14 +12,24 @@
 
 namespace stillhook {
 
-/// Phases follow one another without a gap, at times that need not be steps; only a phase that waits for an event
-/// starts at the step that saw it.
 class OperationClock {
  public:
   OperationClock(const Operation& operation, int drives);
 
   /// Starts every phase that is due at time t (s). Opens them in the recorder.
   void advance(double t, Recorder& recorder);
+  /// How each phase so far was started.
+  enum class Cause { time, event, timeout };
+  struct Opening {
+    double start;  // s
+    Cause cause;
+  };
+  const std::vector<Opening>& openings() const { return openings_; }
+  double phase_end() const { return phase_end_; }  // s
+  /// The contact element that the next phase waits for, -1 if none.
+  int awaited_contact() const;
+  /// Starts the next phase at `start` (s), whatever the rules say.
+  void open_next(double start, Cause cause = Cause::time);
   /// Drive positions and rates at time t, for the moves started so far.
   void drives_at(double t, std::span<DriveState> out) const;
 
@@ -31,13 +45,14 @@ class OperationClock {
     const Move* move;
     double start;  // s
   };
-  bool due(const Phase& next, double t, const Recorder& recorder, double& start, bool& timed_out) const;
+  bool due(const Phase& next, double t, const Recorder& recorder, double& start, Cause& cause) const;
 
   const Operation& operation_;
   std::vector<double> base_;  // positions reached by the moves that are over
   std::vector<Running> running_;
   int phase_ = -1;
-  double phase_end_ = 0.0;    // s
+  std::vector<Opening> openings_;
+  double phase_end_ = 0.0;  // s
 };
 
 }  // namespace stillhook

@@ -6,6 +6,10 @@
 
 namespace stillhook {
 
+namespace {
+constexpr int kOfBody = 12, kOfDrive = 2, kOfJoint = 7;  // channels of each
+}
+
 ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
   const MultibodySystem& system = model.system();
   for (const RigidBody& b : system.bodies) {
@@ -22,6 +26,7 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
     for (Channel& c : element->channels()) channels_.push_back(std::move(c));
   }
   element_offset_.push_back(static_cast<int>(channels_.size()));
+  drive_offset_ = static_cast<int>(channels_.size());
   for (const DriveSpec& d : model.specification().drives) {
     const bool winch = d.kind == DriveSpec::Kind::winch;
     channels_.push_back({d.name + ".position", winch || d.kind == DriveSpec::Kind::tow ? "m" : "1",
@@ -29,6 +34,7 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
     channels_.push_back(
         {d.name + ".rate", winch || d.kind == DriveSpec::Kind::tow ? "m/s" : "1/s", "rate of the drive"});
   }
+  joint_offset_ = static_cast<int>(channels_.size());
   for (const Joint& j : system.joints) {
     if (j.type == JointSpec::Type::prismatic)
       channels_.push_back({j.name + ".slide", "m", "travel along the axis from the initial pose"});
@@ -39,45 +45,86 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
     for (const char* axis : {"x", "y", "z"})
       channels_.push_back({j.name + ".moment_" + axis, "N m", "moment on the child about the joint, world axes"});
   }
+  rest_offset_ = static_cast<int>(channels_.size());
   channels_.push_back({"sea.elevation", "m", "undisturbed wave elevation at the world origin"});
   channels_.push_back({"phase", "1", "index of the phase of the operation"});
   values_.assign(channels_.size(), 0.0);
 }
 
+int ChannelBoard::find(const std::string& name) const {
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    if (channels_[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+std::pair<ChannelBoard::Source, int> ChannelBoard::source_of(int channel) const {
+  if (channel >= rest_offset_) return {Source::rest, 0};
+  if (channel >= joint_offset_) return {Source::joint, (channel - joint_offset_) / kOfJoint};
+  if (channel >= drive_offset_) return {Source::drive, (channel - drive_offset_) / kOfDrive};
+  if (channel < element_offset_.front()) return {Source::body, channel / kOfBody};
+  const auto after = std::upper_bound(element_offset_.begin(), element_offset_.end(), channel);
+  return {Source::element, static_cast<int>(after - element_offset_.begin()) - 1};
+}
+
+void ChannelBoard::measure_body(std::size_t i, const SystemState& state) {
+  double* out = values_.data() + kOfBody * i;
+  const auto put = [&out](const Vector3& v) {
+    for (int k = 0; k < 3; ++k) *out++ = v[k];
+  };
+  const BodyKinematics& k = state.body[i];
+  const Vector3 arm = -model_.system().bodies[i].cog;
+  const RollPitchYaw angles = roll_pitch_yaw(k.R_WB);
+  put(k.p_WC + k.R_WB * arm);
+  put({angles.roll, angles.pitch, angles.yaw});
+  put(k.v_WC + k.R_WB * k.w_B.cross(arm));
+  put(k.w_B);
+}
+
+void ChannelBoard::measure_joint(std::size_t j, const SystemState& state) {
+  double* out = values_.data() + joint_offset_ + kOfJoint * j;
+  Vector3 force, moment;
+  model_.system().joint_reaction(state, static_cast<int>(j), force, moment);
+  *out++ = model_.system().joints[j].coordinate(state.instant());
+  for (int k = 0; k < 3; ++k) *out++ = force[k];
+  for (int k = 0; k < 3; ++k) *out++ = moment[k];
+}
+
+void ChannelBoard::measure(Source source, int index, SystemState& state, SystemWorkspace& work) {
+  switch (source) {
+    case Source::body:
+      measure_body(static_cast<std::size_t>(index), state);
+      break;
+    case Source::element: {
+      const std::size_t first = element_offset_[index], count = element_offset_[index + 1] - first;
+      model_.system().elements[index]->measure(state.instant(), model_.system().memory(index, state, work),
+                                               std::span(values_).subspan(first, count));
+      break;
+    }
+    case Source::drive:
+      values_[drive_offset_ + kOfDrive * index] = state.drive[index].position;
+      values_[drive_offset_ + kOfDrive * index + 1] = state.drive[index].rate;
+      break;
+    case Source::joint:
+      measure_joint(static_cast<std::size_t>(index), state);
+      break;
+    case Source::rest:
+      values_[rest_offset_] = model_.waves().elevation(0.0, 0.0, state.t);
+      values_[rest_offset_ + 1] = state.phase;
+      break;
+  }
+}
+
 void ChannelBoard::measure(SystemState& state, SystemWorkspace& work, int phase) {
   const MultibodySystem& system = model_.system();
-  const Instant now = state.instant();
-  double* out = values_.data();
-  const auto put = [&out](const Vector3& v) {
-    for (int i = 0; i < 3; ++i) *out++ = v[i];
+  const auto all = [&](Source source, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) measure(source, static_cast<int>(i), state, work);
   };
-  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    const BodyKinematics& k = state.body[i];
-    const Vector3 arm = -system.bodies[i].cog;
-    const RollPitchYaw angles = roll_pitch_yaw(k.R_WB);
-    put(k.p_WC + k.R_WB * arm);
-    put({angles.roll, angles.pitch, angles.yaw});
-    put(k.v_WC + k.R_WB * k.w_B.cross(arm));
-    put(k.w_B);
-  }
-  for (std::size_t e = 0; e < system.elements.size(); ++e) {
-    const std::size_t count = element_offset_[e + 1] - element_offset_[e];
-    system.elements[e]->measure(now, system.memory(static_cast<int>(e), state, work), {out, count});
-    out += count;
-  }
-  for (const DriveState& d : state.drive) {
-    *out++ = d.position;
-    *out++ = d.rate;
-  }
-  for (std::size_t j = 0; j < system.joints.size(); ++j) {
-    Vector3 force, moment;
-    system.joint_reaction(state, static_cast<int>(j), force, moment);
-    *out++ = system.joints[j].coordinate(now);
-    put(force);
-    put(moment);
-  }
-  *out++ = model_.waves().elevation(0.0, 0.0, state.t);
-  *out++ = phase;
+  all(Source::body, system.bodies.size());
+  all(Source::element, system.elements.size());
+  all(Source::drive, state.drive.size());
+  all(Source::joint, system.joints.size());
+  all(Source::rest, 1);
+  values_[rest_offset_ + 1] = phase;
 }
 
 Recorder::Recorder(const Model& model, const ChannelBoard& board, bool samples, Trajectory& out, SampleSink* sink)
@@ -96,6 +143,7 @@ Recorder::Recorder(const Model& model, const ChannelBoard& board, bool samples, 
       return -1;
     };
     w.force = at("force");
+    w.gap = at("gap");
     w.approach = at("approach_speed");
     w.place = at("x");
     w.role = spec.role;
@@ -144,8 +192,16 @@ void Recorder::watch_contacts(double t, double h, int phase) {
       w.event.approach_speed = std::max({0.0, v[w.approach], w.last_approach});
       w.event.phase = out_.phases[phase].name;
     }
+    const double gap = v[w.gap];
+    w.parted = w.parting && force <= 0.0 && gap > 0.0;
+    if (w.parted) {
+      w.last_touch = t - h * (w.last_gap < 0.0 ? gap / (gap - w.last_gap) : 1.0);
+      w.parting = false;
+    }
+    w.last_gap = gap;
     if (force > 0.0) {
       w.last_touch = t;
+      w.parting = true;
       w.event.peak_force = std::max(w.event.peak_force, force);
       w.event.impulse += force * h;
     } else if (w.touching) {
@@ -168,10 +224,16 @@ void Recorder::close(double t) {
                    [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
 }
 
-double Recorder::clear_for(int contact_element, double t) const {
+double Recorder::parted_at(int contact_element) const {
   for (const Watch& w : watches_)
-    if (w.element == contact_element) return t - w.last_touch;
-  return std::numeric_limits<double>::infinity();
+    if (w.element == contact_element) return w.last_touch;
+  return -std::numeric_limits<double>::infinity();
+}
+
+bool Recorder::just_parted(int contact_element) const {
+  for (const Watch& w : watches_)
+    if (w.element == contact_element) return w.parted;
+  return false;
 }
 
 }  // namespace stillhook

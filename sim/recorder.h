@@ -14,15 +14,26 @@ class ChannelBoard {
   const std::vector<Channel>& channels() const { return channels_; }
   /// Fills values() from a state whose elements' memories belong to it.
   void measure(SystemState& state, SystemWorkspace& work, int phase);
+  /// Fills the channels of one source alone.
+  enum class Source { body, element, drive, joint, rest };
+  void measure(Source source, int index, SystemState& state, SystemWorkspace& work);
+  /// Which source a channel belongs to, and its index.
+  std::pair<Source, int> source_of(int channel) const;
   std::span<const double> values() const { return values_; }
   /// Index of the first channel of an element.
   int element_offset(int element) const { return element_offset_[element]; }
+  /// Index of a channel by name, -1 if there is none.
+  int find(const std::string& name) const;
 
  private:
+  void measure_body(std::size_t i, const SystemState& state);
+  void measure_joint(std::size_t j, const SystemState& state);
+
   const Model& model_;
   std::vector<Channel> channels_;
   std::vector<double> values_;
   std::vector<int> element_offset_;
+  int drive_offset_ = 0, joint_offset_ = 0, rest_offset_ = 0;
 };
 
 /// Turns the board's values into a trajectory.
@@ -35,16 +46,19 @@ class Recorder {
   /// Phase bookkeeping.
   void open_phase(const std::string& name, PhaseSpec::Stage stage, double t, bool timed_out);
   void close(double t);
-  /// Seconds since the contact element last carried force (0 while it does).
-  double clear_for(int contact_element, double t) const;
+  /// When the contact element parted for the last time, s: between two steps, by the gap on either side. The present
+  /// while it touches, minus infinity if it never did.
+  double parted_at(int contact_element) const;
+  /// True if it parted in the last step.
+  bool just_parted(int contact_element) const;
 
  private:
   struct Watch {  // one contact element
-    int element, force, approach, place;
+    int element, force, gap, approach, place;
     ContactSpec::Role role;
     std::string name;
-    bool touching = false;
-    double last_touch, last_approach = 0.0;
+    bool touching = false, parting = false, parted = false;  // parting: no force, but not yet apart
+    double last_touch, last_approach = 0.0, last_gap = 0.0;
     ContactEvent event;
   };
   void watch_contacts(double t, double h, int phase);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/hull/heading_frame.h"
+#include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
 
 namespace stillhook {
@@ -66,12 +67,22 @@ struct LinearResponse::Group {
     HeadingFrame frame;                // cog from the reference point
     LinearFroudeKrylov froude_krylov;  // about the reference point
     Eigen::Vector2d reference;         // m, in W
+    double diffraction_factor = 1.0;
   };
   std::vector<Hull> hulls;
   std::shared_ptr<const HydrodynamicCoefficients> set;  // may be null
   Matrix6 constant_added_mass = Matrix6::Zero();        // of a hull without a set
   std::optional<DiffractionTable> diffraction;
+  VectorX added_mass_factor, radiation_factor;  // a number a mode, see mode_factors()
 
+  MatrixX added_mass(double frequency) const {
+    if (!set) return constant_added_mass;
+    const auto a = added_mass_factor.asDiagonal(), r = radiation_factor.asDiagonal();
+    return a * set->A_inf * a + r * (added_mass_of(*set, frequency) - set->A_inf) * r;
+  }
+  MatrixX damping(double frequency) const {
+    return radiation_factor.asDiagonal() * damping_of(*set, frequency) * radiation_factor.asDiagonal();
+  }
   double heading() const { return hulls.front().frame.heading; }
   /// T^T M T of a matrix of all modes, added to the system's.
   void add(const MatrixX& M, MatrixX& to) const {
@@ -143,8 +154,10 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     group.set = model.coefficients(members.front()).set;
     std::vector<LinearFroudeKrylov> incident;
     std::vector<double> headings;
+    std::vector<const BodySpec*> bodies;
     for (const int k : members) {
       const BodySpec& body = spec.bodies[k];
+      bodies.push_back(&body);
       const Pose X_WB = pose_of(state_.body[k], system.bodies[k]);
       const double height = model.coefficients(k).reference_height;
       Mesh mesh = build_hull_mesh(body.hull);
@@ -153,10 +166,13 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
       const double yaw = roll_pitch_yaw(X_WB.R).yaw;
       const double density = group.set ? group.set->density : spec.sea.density;
       group.hulls.push_back({HeadingFrame(k, body.cog - Vector3(0.0, 0.0, height), yaw),
-                             LinearFroudeKrylov(mesh, waterline, density, gravity_), X_WB.p.head<2>()});
+                             LinearFroudeKrylov(mesh, waterline, density, gravity_), X_WB.p.head<2>(),
+                             body.hydrodynamics.diffraction_factor});
       incident.push_back(group.hulls.back().froude_krylov);
       headings.push_back(yaw);
     }
+    group.added_mass_factor = mode_factors(bodies, &HydrodynamicsSpec::added_mass_factor);
+    group.radiation_factor = mode_factors(bodies, &HydrodynamicsSpec::radiation_factor);
     if (group.set && !group.set->excitation.empty()) {
       try {
         group.diffraction.emplace(group.set->excitation, incident, headings, group.set->length);
@@ -174,15 +190,14 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
 
 MatrixX LinearResponse::potential_mass(double frequency) const {
   MatrixX M = MatrixX::Zero(mass_.rows(), mass_.cols());
-  for (const Group& group : groups_)
-    group.add(group.set ? added_mass_of(*group.set, frequency) : MatrixX(group.constant_added_mass), M);
+  for (const Group& group : groups_) group.add(group.added_mass(frequency), M);
   return M;
 }
 
 MatrixX LinearResponse::potential_damping(double frequency) const {
   MatrixX B = MatrixX::Zero(mass_.rows(), mass_.cols());
   for (const Group& group : groups_)
-    if (group.set) group.add(damping_of(*group.set, frequency), B);
+    if (group.set) group.add(group.damping(frequency), B);
   return B;
 }
 
@@ -204,7 +219,7 @@ Eigen::VectorXcd LinearResponse::excitation(double frequency, double heading) co
     for (std::size_t i = 0; i < group.hulls.size(); ++i) {
       const Group::Hull& hull = group.hulls[i];
       const ResponseAmplitude::Vector6c X =
-          X_D.segment<6>(6 * i) + hull.froude_krylov.excitation(frequency, heading - hull.frame.heading);
+          hull.diffraction_factor * X_D.segment<6>(6 * i) + hull.froude_krylov.excitation(frequency, heading - hull.frame.heading);
       Q.segment<6>(6 * hull.frame.body) +=
           hull.frame.transform().transpose().cast<Complex>() * X * std::polar(1.0, k * direction.dot(hull.reference));
     }

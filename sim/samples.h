@@ -12,7 +12,8 @@ namespace stillhook {
 
 /// What is known about a run's samples before the first of them.
 struct SampleForecast {
-  double interval = 0.0;            // s between samples; sample i is at i * interval
+  double begin = 0.0;               // s, time of the first sample
+  double interval = 0.0;            // s, from one sample to the next
   std::size_t expected = 0;         // samples, if the operation waits for no event
   std::vector<PhaseRecord> phases;  // names and stages of the phases to come; their times are not known yet
 };

@@ -7,14 +7,15 @@
 #include "sim/multibody/hht.h"
 #include "sim/operation_clock.h"
 #include "sim/recorder.h"
+#include "sim/tangent_pass.h"
 
 namespace stillhook {
 namespace {
 
-constexpr int kHalvings = 8;            // of a step that does not converge
-constexpr double kProgressEvery = 5.0;  // s, simulated
+constexpr int kHalvings = 8;              // of a step that does not converge
+constexpr double kProgressEvery = 5.0;    // s, simulated
 constexpr const char* kWholeRun = "run";  // the phase of a run without an operation
-constexpr double kLost = 1e5;           // m from the origin: no longer a lift
+constexpr double kLost = 1e5;             // m from the origin: no longer a lift
 
 // One run; its parts share the state.
 class Run {
@@ -23,7 +24,7 @@ class Run {
       : model_(model),
         options_(options),
         out_(out),
-        state_(model.initial_state()),
+        state_(options.from ? *options.from : model.initial_state()),
         stepper_(model.system(), hht_options(model.specification().solver)),
         board_(model),
         recorder_(model, board_, options.record, out, options.sink),
@@ -31,24 +32,29 @@ class Run {
         clock_(operation, static_cast<int>(model.specification().drives.size())),
         drives_(model.specification().drives.size()) {}
 
+  HhtStepper& stepper() { return stepper_; }
+  void carry(TangentPass& tangents) { tangents_ = &tangents; }
+  const SystemState& state() const { return state_; }
+
   void go() {
     const SolverSpec& solver = model_.specification().solver;
-    const double h = solver.time_step;
+    const double h = solver.time_step, begin = state_.t;
     const long every = std::max(1L, std::lround(solver.output_interval / h));
     if (options_.sink) options_.sink->open(out_, forecast(every * h));
     stepper_.start(state_);
-    clock_.advance(0.0, recorder_);
-    if (clock_.phase() < 0) recorder_.open_phase(kWholeRun, PhaseSpec::Stage::hanging, 0.0, false);
+    if (tangents_) tangents_->start(state_);
+    advance_clock(begin);
+    if (clock_.phase() < 0) recorder_.open_phase(kWholeRun, PhaseSpec::Stage::hanging, begin, false);
     note(h, true);
-    double next_progress = kProgressEvery;
+    double next_progress = begin + kProgressEvery;
     for (long k = 1;; ++k) {
-      const double t = k * h;
+      const double t = begin + k * h;
       if (done(t - h)) break;
       if (!advance(t, h)) {
         out_.status = RunStatus::diverged;
         break;
       }
-      clock_.advance(t, recorder_);
+      advance_clock(t);
       state_.phase = phase();
       note(h, k % every == 0);
       if (t < next_progress || !options_.progress) continue;
@@ -77,23 +83,37 @@ class Run {
 
   SampleForecast forecast(double interval) const {
     SampleForecast f;
+    f.begin = state_.t;
     f.interval = interval;
-    const double limit = model_.specification().solver.max_duration;
-    const double end = operation_.phases.empty() ? limit : operation_.planned_duration();
-    f.expected = 1 + static_cast<std::size_t>((limit > 0.0 ? std::min(limit, end) : end) / interval);
+    f.expected = 1 + static_cast<std::size_t>(std::max(0.0, planned_end() - f.begin) / interval);
     for (const Phase& p : operation_.phases) f.phases.push_back({p.name, p.stage});
     if (f.phases.empty()) f.phases.push_back({kWholeRun, PhaseSpec::Stage::hanging});
     return f;
   }
 
+  double planned_end() const {
+    const double limit = time_limit();
+    if (operation_.phases.empty()) return limit;
+    return limit > 0.0 ? std::min(limit, operation_.planned_duration()) : operation_.planned_duration();
+  }
+
+  void advance_clock(double t) {
+    clock_.advance(t, recorder_);
+    if (tangents_) tangents_->follow(clock_);
+  }
+
+  double time_limit() const {
+    return options_.until > 0.0 ? options_.until : model_.specification().solver.max_duration;
+  }
+
   bool done(double t) const {
-    const double limit = model_.specification().solver.max_duration;
+    const double limit = time_limit();
     if (limit > 0.0 && t >= limit - 1e-9) return true;
     return clock_.phase() >= 0 && clock_.finished(t);
   }
 
   double end_expected(double t) const {
-    const double limit = model_.specification().solver.max_duration;
+    const double limit = time_limit();
     const double end = clock_.phase() >= 0 ? clock_.expected_end(t) : limit;
     return limit > 0.0 ? std::min(limit, end) : end;
   }
@@ -101,6 +121,7 @@ class Run {
   void note(double h, bool sample) {
     board_.measure(state_, stepper_.workspace(), phase());
     recorder_.add(state_.t, h, phase(), sample);
+    if (tangents_ && !tangents_->note(state_, h, recorder_, clock_, sample)) tangents_ = nullptr;
   }
 
   // To time t in one step of h, or in halves of it where that does not converge.
@@ -112,8 +133,10 @@ class Run {
       if (t - state_.t < step * (1.0 - 1e-9)) step = t - state_.t;
       clock_.drives_at(state_.t + step, drives_);
       ++out_.steps;
+      if (tangents_) tangents_->begin_step(state_);
       if (stepper_.step(state_, step, drives_)) {
         if (lost()) return false;
+        if (tangents_) tangents_->end_step(state_, step);
         continue;
       }
       if (++halvings > kHalvings) {
@@ -151,6 +174,7 @@ class Run {
   const Operation& operation_;
   OperationClock clock_;
   std::vector<DriveState> drives_;
+  TangentPass* tangents_ = nullptr;
 };
 
 }  // namespace
@@ -160,6 +184,21 @@ Trajectory simulate(const Model& model, const Operation& operation, const RunOpt
   Trajectory out;
   out.static_poses = operation.static_poses;
   Run(model, operation, options, out).go();
+  out.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return out;
+}
+
+Trajectory simulate_with_tangents(const Model& model, const Operation& operation, const RunOptions& options,
+                                  const std::vector<LiftTwin>& twins, const TangentOptions& wanted,
+                                  Tangents& tangents) {
+  const auto begin = std::chrono::steady_clock::now();
+  Trajectory out;
+  out.static_poses = operation.static_poses;
+  Run run(model, operation, options, out);
+  TangentPass pass(model, run.stepper(), twins, wanted, out, tangents, options.from != nullptr);
+  run.carry(pass);
+  run.go();
+  pass.close(run.state(), out.status == RunStatus::completed);
   out.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }

@@ -17,6 +17,9 @@ struct RunOptions {
   bool record = true;
   /// Takes the samples instead of the trajectory, whose `time` and `values` then stay empty.
   SampleSink* sink = nullptr;
+  /// Where the run begins instead of the model's initial state, at its time; must outlive the run.
+  const SystemState* from = nullptr;
+  double until = 0.0;  // s, the run ends there at the latest; 0 = as the specification says
 };
 
 /// Never throws for numerical trouble: a run that diverges ends with RunStatus::diverged and says where. The same

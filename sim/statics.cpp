@@ -39,8 +39,8 @@ void settle(const Model& model, SystemState& state, const std::string& entry) {
                                  std::to_string(report.residual) + " of the largest weight");
 }
 
-// Tolerance of a goal in its own unit: a micrometre, a microradian, a newton.
-double tolerance_of(const StaticGoal& goal) { return goal.coordinate.wire.empty() ? 1e-6 : 1.0; }
+// Tolerance of a goal in its own unit, m, rad or N: two solutions are subtracted where derivatives are wanted.
+double tolerance_of(const StaticGoal& goal) { return goal.coordinate.wire.empty() ? 1e-10 : 1e-3; }
 
 }  // namespace
 

@@ -38,6 +38,7 @@ struct Request {
   CommonOptions common;
   PlanArguments plan;
   HydroArguments hydro;
+  FitArguments fit;
   int threads = 0;
   SchemaArguments schema;
   ExportArguments exports;
@@ -169,6 +170,17 @@ void add_verbs(CLI::App& app, Request& r) {
   CLI::Option* resume = plan->add_flag("--resume", r.plan.resume, "Go on with the search that the folder holds");
   resume->excludes("--force");
   plan->callback([&r] { r.verb = [&r] { return run_plan(r.common, r.plan); }; });
+
+  CLI::App* fit = app.add_subcommand("fit", "Estimate parameters of the case from measured runs, with intervals");
+  add_case_options(*fit, r);
+  add_folder_options(*fit, r);
+  fit->add_option("--measured", r.fit.measured,
+                  "Measured run (CSV or NetCDF) for the record of the case that has no file; RECORD=FILE names the "
+                  "record; may be repeated")
+      ->type_name("FILE")
+      ->take_all()
+      ->allow_extra_args(false);
+  fit->callback([&r] { r.verb = [&r] { return run_fit(r.common, r.fit); }; });
 
   CLI::App* report = app.add_subcommand("report", "Rebuild the report of a run folder");
   report->add_option("RUN_DIR", r.common.input, "Folder that simulate or plan has written")->required();

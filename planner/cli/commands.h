@@ -59,10 +59,15 @@ struct ExportArguments {
   std::vector<std::string> channels;  // patterns; empty = all
 };
 
+struct FitArguments {
+  std::vector<std::string> measured;  // FILE or RECORD=FILE
+};
+
 int run_check(const CommonOptions& options);
 int run_hydro(const CommonOptions& options, const HydroArguments& arguments);
 int run_simulate(const CommonOptions& options);
 int run_plan(const CommonOptions& options, const PlanArguments& arguments);
+int run_fit(const CommonOptions& options, const FitArguments& arguments);
 int run_report(const CommonOptions& options);
 int run_schema(const SchemaArguments& arguments);
 int run_export(const CommonOptions& options, const ExportArguments& arguments);

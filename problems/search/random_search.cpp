@@ -22,7 +22,7 @@ Eigen::VectorXd random_point(const SearchProblem& problem, unsigned long seed, i
 
 SearchReport random_search(const SearchProblem& problem, const SearchOptions& options) {
   if (const std::string fault = problem_fault(problem); !fault.empty()) throw std::invalid_argument(fault);
-  const int count = options.evaluations, constraints = static_cast<int>(problem.constraint_names.size());
+  const int count = options.evaluations;
   if (count <= 0) throw std::invalid_argument("the evaluation budget must be positive");
   const auto begin = std::chrono::steady_clock::now();
   const auto out_of_time = [&] {
@@ -58,7 +58,7 @@ SearchReport random_search(const SearchProblem& problem, const SearchOptions& op
     try {
       if (!go_on()) continue;
       const Eigen::VectorXd x = random_point(problem, options.seed, i);
-      Evaluation evaluation = sanitised(problem.evaluate(x), constraints);
+      Evaluation evaluation = sanitised(problem.evaluate(x), problem);
       if (!evaluation.interrupted) take(i, std::move(evaluation), x);
     } catch (...) {
       const std::lock_guard lock(mutex);
@@ -72,12 +72,8 @@ SearchReport random_search(const SearchProblem& problem, const SearchOptions& op
   for (int i = 0; i < count; ++i) {
     const auto& evaluation = done[static_cast<std::size_t>(i)];
     if (!evaluation) continue;
-    ++report.evaluations;
-    report.simulations += evaluation->from_store ? 0 : 1;
-    if (report.best_evaluation != 0 && !better(*evaluation, report.best, options.constraint_tolerance)) continue;
-    report.best = *evaluation;
-    report.best_x = random_point(problem, options.seed, i);
-    report.best_evaluation = i + 1;
+    if (report.take(random_point(problem, options.seed, i), *evaluation, false, options.constraint_tolerance))
+      report.best_evaluation = i + 1;
   }
   const bool complete = report.evaluations == count;
   report.status = complete || !stopped() ? SearchStatus::budget_used : SearchStatus::interrupted;

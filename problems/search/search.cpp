@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "problems/search/nlopt_search.h"
+#include "problems/search/solvers.h"
 
 namespace stillhook {
 namespace {
@@ -22,7 +22,11 @@ class Sequence {
   Sequence(const SearchProblem& problem, const SearchOptions& options)
       : problem_(problem), options_(options), begin_(std::chrono::steady_clock::now()) {
     watched_ = problem;
-    watched_.evaluate = [this](const Eigen::VectorXd& x) { return evaluate(x); };
+    watched_.evaluate = [this](const Eigen::VectorXd& x) { return evaluate(x, problem_.evaluate, false); };
+    if (problem.evaluate_with_gradient)
+      watched_.evaluate_with_gradient = [this](const Eigen::VectorXd& x) {
+        return evaluate(x, problem_.evaluate_with_gradient, true);
+      };
   }
 
   SearchReport run() {
@@ -51,34 +55,27 @@ class Sequence {
       stopped_ = true;
       return;
     }
-    evaluate(x);
+    watched_.evaluate(x);
   }
 
-  Evaluation evaluate(const Eigen::VectorXd& x) {
-    Evaluation evaluation = sanitised(problem_.evaluate(x), static_cast<int>(problem_.constraint_names.size()));
+  template <class Function>
+  Evaluation evaluate(const Eigen::VectorXd& x, const Function& function, bool with_gradient) {
+    Evaluation evaluation = sanitised(function(x), problem_);
     if (evaluation.interrupted) {
       stopped_ = true;
       return evaluation;
     }
-    ++report_.evaluations;
-    report_.simulations += evaluation.from_store ? 0 : 1;
-    const bool improved =
-        report_.best_evaluation == 0 || better(evaluation, report_.best, options_.constraint_tolerance);
-    if (improved) {
-      report_.best = evaluation;
-      report_.best_x = x;
-      report_.best_evaluation = report_.evaluations;
-    }
+    const bool improved = report_.take(x, evaluation, with_gradient, options_.constraint_tolerance);
     if (options_.progress)
       options_.progress(
           {stage_, report_.evaluations, options_.evaluations, improved, &evaluation, &report_.best, &report_.best_x});
     return evaluation;
   }
 
-  NloptOptions stage_options(const std::string& algorithm, int evaluations) const {
-    NloptOptions stage;
-    stage.algorithm = algorithm;
-    stage.start = report_.best_x;
+  SolveOptions stage_options(const std::string& algorithm, int evaluations) const {
+    SolveOptions stage;
+    stage.solver = algorithm;
+    stage.starts = {report_.best_x};
     stage.evaluations = evaluations;
     stage.seed = options_.seed;
     stage.constraint_tolerance = options_.constraint_tolerance;
@@ -86,9 +83,9 @@ class Sequence {
     return stage;
   }
 
-  void run_stage(const NloptOptions& stage) {
-    stage_ = stage.algorithm;
-    last_stage_ = nlopt_search(watched_, stage);
+  void run_stage(const SolveOptions& stage) {
+    stage_ = stage.solver;
+    last_stage_ = solve(watched_, stage);
     if (last_stage_.status == SearchStatus::interrupted) stopped_ = true;
   }
 
@@ -96,7 +93,7 @@ class Sequence {
     if (options_.global_algorithm.empty() || stopped_) return;
     const int share = std::min(left(), static_cast<int>(std::lround(options_.global_share * options_.evaluations)));
     if (share <= 0) return;
-    NloptOptions stage = stage_options(options_.global_algorithm, share);
+    SolveOptions stage = stage_options(options_.global_algorithm, share);
     const int usual = 20 * (static_cast<int>(problem_.start.size()) + 1);  // Runarsson & Yao 2005
     stage.population = std::min(usual, std::max(kSmallestPopulation, share / kGenerations));
     // CRS2 needs more points than dimensions for its simplex.
@@ -107,12 +104,14 @@ class Sequence {
 
   void run_local() {
     if (options_.local_algorithm.empty()) return;
+    const bool stepping = !find_solver(options_.local_algorithm)->gradient;
     for (double step = options_.initial_step; left() > 0 && !stopped_ && step > options_.x_tolerance;
          step *= kStepReduction) {
-      NloptOptions stage = stage_options(options_.local_algorithm, left());
+      SolveOptions stage = stage_options(options_.local_algorithm, left());
       stage.initial_step = step;
       stage.x_tolerance = options_.x_tolerance;
       run_stage(stage);
+      if (!stepping) break;
     }
   }
 
@@ -148,21 +147,21 @@ class Sequence {
 
 std::string search_fault(const SearchProblem& problem, const SearchOptions& options) {
   if (std::string fault = problem_fault(problem); !fault.empty()) return fault;
-  const bool constrained = !problem.constraint_names.empty();
+  const SolverNeeds needs = needs_of(problem);
   if (!options.global_algorithm.empty())
-    if (std::string fault = algorithm_fault(options.global_algorithm, true, constrained); !fault.empty())
+    if (std::string fault = algorithm_fault(options.global_algorithm, true, needs); !fault.empty())
       return "global_algorithm " + fault;
   if (!options.local_algorithm.empty())
-    if (std::string fault = algorithm_fault(options.local_algorithm, false, constrained); !fault.empty())
+    if (std::string fault = algorithm_fault(options.local_algorithm, false, needs); !fault.empty())
       return "local_algorithm " + fault;
   if (options.evaluations <= 0) return "the evaluation budget must be positive";
   if (!(options.global_share >= 0.0 && options.global_share <= 1.0)) return "global_share must be in [0, 1]";
   if (!(options.initial_step > 0.0 && options.initial_step <= 1.0)) return "initial_step must be in (0, 1]";
   if (!(options.x_tolerance > 0.0)) return "x_tolerance must be > 0";
+  if (problem.equalities > 0 && options.constraint_tolerance == 0.0)
+    return "constraint_tolerance must be > 0, since there are equalities";
   for (const Eigen::VectorXd& x : options.starts)
-    if (x.size() != problem.start.size() || (x.array() < problem.lower.array()).any() ||
-        (x.array() > problem.upper.array()).any())
-      return "a start is outside the bounds";
+    if (std::string fault = start_fault(problem, x); !fault.empty()) return fault;
   return {};
 }
 

@@ -3,29 +3,17 @@
 //   1. every start is evaluated (the problem's own start, the baseline, first);
 //   2. the global algorithm takes global_share of the budget, from the best start;
 //   3. the local one goes on from the best point found, again and again with a smaller first step, until the budget is
-//      used or the step is below the tolerance.
+//      used or the step is below the tolerance; one with gradients, which has no first step, goes on once.
 //
 // The sequence is a function of the problem, the options and the seed alone. So a search that was killed is resumed by
 // running it again with its evaluations answered from the store.
 #pragma once
 
 #include <atomic>
-#include <functional>
-#include <string>
-#include <vector>
 
-#include "problems/search/problem.h"
+#include "problems/search/solve.h"
 
 namespace stillhook {
-
-struct SearchProgress {
-  std::string stage;                // "start", "isres", "cobyla", "random search", ...
-  int evaluations = 0, budget = 0;  // asked for so far, and in all
-  bool improved = false;            // the last evaluation is the best so far
-  const Evaluation* last = nullptr;
-  const Evaluation* best = nullptr;
-  const Eigen::VectorXd* best_x = nullptr;
-};
 
 struct SearchOptions {
   std::string global_algorithm = "isres";  // empty = none

@@ -11,16 +11,18 @@
 namespace stillhook {
 namespace {
 
-constexpr const char* kSchemaVersion = "1";
+constexpr const char* kSchemaVersion = "2";
 
 constexpr const char* kTables =
     "CREATE TABLE IF NOT EXISTS meta (key TEXT PRIMARY KEY, value TEXT NOT NULL);"
     "CREATE TABLE IF NOT EXISTS evaluation ("
     "  id INTEGER PRIMARY KEY AUTOINCREMENT,"  // the order in which they were finished
-    "  x BLOB NOT NULL UNIQUE,"                // blobs: arrays of doubles, exact bits, in this machine's byte order
+    "  x BLOB NOT NULL,"                       // blobs: arrays of doubles, exact bits, in this machine's byte order
+    "  with_gradient INTEGER NOT NULL,"        // asked for; whether it is valid is another matter
     "  usable INTEGER NOT NULL, objective REAL NOT NULL, violation REAL NOT NULL, constraints BLOB NOT NULL,"
     "  details BLOB NOT NULL, message TEXT NOT NULL, gradient_valid INTEGER NOT NULL, objective_gradient BLOB,"
-    "  constraint_jacobian BLOB, source TEXT NOT NULL, wall_s REAL NOT NULL, finished_at TEXT NOT NULL);";
+    "  constraint_jacobian BLOB, source TEXT NOT NULL, wall_s REAL NOT NULL, finished_at TEXT NOT NULL,"
+    "  UNIQUE (x, with_gradient));";
 
 // -0 and 0 are one number with two bit patterns.
 Eigen::VectorXd canonical(const Eigen::VectorXd& x) { return x.array() + 0.0; }
@@ -129,7 +131,8 @@ class EvaluationStore::Database {
       set_meta("schema_version", kSchemaVersion);
       return;
     } else if (schema != kSchemaVersion) {
-      throw StoreError(path_ + ": has layout " + schema + ", this program reads layout " + kSchemaVersion);
+      throw StoreError(path_ + ": was made by another version of stillhook (layout " + schema +
+                       ", this one reads layout " + kSchemaVersion + "); start anew with --force or another --out");
     }
     if (const std::string version = meta("version"); version != identity.version)
       throw StoreError(path_ + ": was made by stillhook " + version + ", this is " + identity.version +
@@ -157,12 +160,13 @@ EvaluationStore::EvaluationStore(const std::string& path, const StoreIdentity& i
 
 EvaluationStore::~EvaluationStore() = default;
 
-std::optional<Evaluation> EvaluationStore::find(const Eigen::VectorXd& x) {
+std::optional<Evaluation> EvaluationStore::find(const Eigen::VectorXd& x, bool with_gradient) {
   const std::lock_guard lock(db_->mutex);
   Statement s = db_->prepare(
       "SELECT usable, objective, constraints, details, message, gradient_valid, objective_gradient,"
-      " constraint_jacobian FROM evaluation WHERE x = ?");
+      " constraint_jacobian FROM evaluation WHERE x = ? AND with_gradient = ?");
   s.bind(1, canonical(x));
+  s.bind(2, with_gradient);
   if (!s.step()) return std::nullopt;
   Evaluation e;
   e.usable = s.flag(0);
@@ -180,26 +184,28 @@ std::optional<Evaluation> EvaluationStore::find(const Eigen::VectorXd& x) {
   return e;
 }
 
-void EvaluationStore::insert(const Eigen::VectorXd& x, const Evaluation& e, const std::string& source, double wall_s) {
+void EvaluationStore::insert(const Eigen::VectorXd& x, const Evaluation& e, bool with_gradient,
+                             const std::string& source, double wall_s) {
   const std::lock_guard lock(db_->mutex);
   Statement s = db_->prepare(
-      "INSERT OR IGNORE INTO evaluation (x, usable, objective, violation, constraints, details, message,"
+      "INSERT OR IGNORE INTO evaluation (x, with_gradient, usable, objective, violation, constraints, details, message,"
       " gradient_valid, objective_gradient, constraint_jacobian, source, wall_s, finished_at)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))");
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))");
   s.bind(1, canonical(x));
-  s.bind(2, e.usable);
-  s.bind(3, e.objective);
-  s.bind(4, e.violation());
-  s.bind(5, e.constraints);
-  s.bind(6, e.details.data(), static_cast<Eigen::Index>(e.details.size()));
-  s.bind(7, e.message);
-  s.bind(8, e.gradient_valid);
+  s.bind(2, with_gradient);
+  s.bind(3, e.usable);
+  s.bind(4, e.objective);
+  s.bind(5, e.violation());
+  s.bind(6, e.constraints);
+  s.bind(7, e.details.data(), static_cast<Eigen::Index>(e.details.size()));
+  s.bind(8, e.message);
+  s.bind(9, e.gradient_valid);
   if (e.gradient_valid) {
-    s.bind(9, e.objective_gradient);
-    s.bind(10, e.constraint_jacobian.data(), e.constraint_jacobian.size());
+    s.bind(10, e.objective_gradient);
+    s.bind(11, e.constraint_jacobian.data(), e.constraint_jacobian.size());
   }
-  s.bind(11, source);
-  s.bind(12, wall_s);
+  s.bind(12, source);
+  s.bind(13, wall_s);
   s.step();
 }
 
@@ -211,18 +217,21 @@ int EvaluationStore::size() {
 }
 
 SearchProblem with_store(const SearchProblem& problem, EvaluationStore& store, const std::string& source) {
-  SearchProblem stored = problem;
-  const int constraints = static_cast<int>(problem.constraint_names.size());
-  stored.evaluate = [evaluate = problem.evaluate, &store, source, constraints](const Eigen::VectorXd& x) {
-    if (std::optional<Evaluation> known = store.find(x)) return *known;
-    const auto begin = std::chrono::steady_clock::now();
-    // Sanitised first: what comes back from the store must be what was first handed on, and SQLite has no NaN.
-    Evaluation evaluation = sanitised(evaluate(x), constraints);
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-    if (!evaluation.interrupted) store.insert(x, evaluation, source, wall.count());
-    return evaluation;
+  const auto stored = [&](const auto& evaluate, bool with_gradient) {
+    return [evaluate, problem, &store, source, with_gradient](const Eigen::VectorXd& x) {
+      if (std::optional<Evaluation> known = store.find(x, with_gradient)) return sanitised(std::move(*known), problem);
+      const auto begin = std::chrono::steady_clock::now();
+      // Sanitised first: what comes back from the store must be what was first handed on, and SQLite has no NaN.
+      Evaluation evaluation = sanitised(evaluate(x), problem);
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+      if (!evaluation.interrupted) store.insert(x, evaluation, with_gradient, source, wall.count());
+      return evaluation;
+    };
   };
-  return stored;
+  SearchProblem result = problem;
+  result.evaluate = stored(problem.evaluate, false);
+  if (problem.evaluate_with_gradient) result.evaluate_with_gradient = stored(problem.evaluate_with_gradient, true);
+  return result;
 }
 
 }  // namespace stillhook

@@ -34,12 +34,15 @@ class EvaluationStore {
   EvaluationStore(const EvaluationStore&) = delete;
   EvaluationStore& operator=(const EvaluationStore&) = delete;
 
-  /// The evaluation at exactly x, with from_store set. Safe to call from several threads.
-  std::optional<Evaluation> find(const Eigen::VectorXd& x);
+  /// The evaluation at exactly x, with from_store set: the one asked for with its gradient, or the one without. These
+  /// are two, since they are computed in different ways: were one answered by the other, what is found would depend on
+  /// which came first. Safe to call from several threads.
+  std::optional<Evaluation> find(const Eigen::VectorXd& x, bool with_gradient = false);
   /// Keeps an evaluation; on return it is on disk. A second one at the same x changes nothing.
-  void insert(const Eigen::VectorXd& x, const Evaluation& evaluation, const std::string& source, double wall_s);
+  void insert(const Eigen::VectorXd& x, const Evaluation& evaluation, bool with_gradient, const std::string& source,
+              double wall_s);
 
-  /// Distinct evaluations held.
+  /// Distinct evaluations held, with and without gradient.
   int size();
 
  private:

@@ -68,6 +68,12 @@ void require_physical(const Matrix6& value, bool symmetric, const BodySpec& spec
                              "must not have a negative eigenvalue: some motion would gain energy from still water");
 }
 
+void require_factor(double value, bool open, const BodySpec& spec, const char* field) {
+  if (std::isfinite(value) && (open ? value > 0.0 : value >= 0.0)) return;
+  throw SpecificationError(entry_of(spec), field,
+                           std::string("must be ") + (open ? "> 0" : ">= 0") + ", got " + std::to_string(value));
+}
+
 /// The set's own field, for errors.
 const char* field_of(const BodySpec& spec) {
   return spec.hydrodynamics.kind == HydrodynamicsSpec::Kind::panels ? "kind" : "coefficient_file";
@@ -105,7 +111,7 @@ std::shared_ptr<const DiffractionTable> table_for(const std::shared_ptr<const Hy
   return known.back().table;
 }
 
-std::unique_ptr<const Diffraction> build_diffraction(const std::vector<HydrodynamicsBody>& bodies,
+std::unique_ptr<Diffraction> build_diffraction(const std::vector<HydrodynamicsBody>& bodies,
                                                      const std::shared_ptr<const HydrodynamicCoefficients>& set,
                                                      std::shared_ptr<const WaveField> waves,
                                                      const PanelMethodSpec& method, std::vector<std::string>& warnings,
@@ -127,7 +133,7 @@ std::unique_ptr<const Diffraction> build_diffraction(const std::vector<Hydrodyna
     if (c.excitation.empty() || !waves || waves->calm()) return nullptr;
     const DiffractionTable& table = *table_for(set, incident, headings);
     const bool cut = method.beyond == PanelMethodSpec::Beyond::cut;
-    auto diffraction = std::make_unique<const Diffraction>(std::move(waves), table, headings,
+    auto diffraction = std::make_unique<Diffraction>(std::move(waves), table, headings,
                                                            cut ? 1.0 : options.negligible_energy, entry_of(first));
     if (diffraction->share_left_out() > 0.0) {
       std::ostringstream sentence;
@@ -157,6 +163,21 @@ std::shared_ptr<const rankine::PanelMarch> march_for(const std::vector<HullAfloa
   return march;
 }
 
+RetardationFunctions scaled(RetardationFunctions kernels, const VectorX& S) {
+  for (RetardationKernel& kernel : kernels.kernels)
+    for (double& K : kernel.value) K *= S[kernel.i] * S[kernel.j];
+  return kernels;
+}
+
+StateSpaceFit scaled(StateSpaceFit fit, const VectorX& S) {
+  for (StateSpaceBlock& block : fit.blocks) {
+    VectorX own(static_cast<Eigen::Index>(block.modes.size()));
+    for (Eigen::Index i = 0; i < own.size(); ++i) own[i] = S[block.modes[static_cast<std::size_t>(i)]];
+    for (MatrixXc& residue : block.K.residues) residue = own.asDiagonal() * residue * own.asDiagonal();
+  }
+  return fit;
+}
+
 std::shared_ptr<const StateSpaceFit> state_space_for(const std::shared_ptr<const HydrodynamicCoefficients>& set,
                                                      double tolerance) {
   static std::mutex mutex;
@@ -175,6 +196,13 @@ std::shared_ptr<const StateSpaceFit> state_space_for(const std::shared_ptr<const
 
 }  // namespace
 
+VectorX mode_factors(const std::vector<const BodySpec*>& bodies, double HydrodynamicsSpec::* factor) {
+  VectorX S(6 * static_cast<Eigen::Index>(bodies.size()));
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    S.segment<6>(6 * static_cast<Eigen::Index>(i)).setConstant(std::sqrt(bodies[i]->hydrodynamics.*factor));
+  return S;
+}
+
 std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<HydrodynamicsBody>& bodies,
                                                   std::shared_ptr<const HydrodynamicCoefficients> set,
                                                   std::shared_ptr<const WaveField> waves, const SeaSpec& sea,
@@ -182,6 +210,7 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
                                                   const HydrodynamicsOptions& options) {
   using Model = HydrodynamicsSpec::RadiationModel;
   std::vector<HydrodynamicsHull> hulls;
+  std::vector<double> diffraction_factors;
   bool nothing = !set;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodySpec& spec = *bodies[i].afloat.body;
@@ -193,6 +222,11 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
     hulls.push_back({spec.name, HeadingFrame(bodies[i].index, cog, bodies[i].afloat.yaw),
                      ViscousDamping{h.linear_damping + bodies[i].critical_damping, h.quadratic_damping}});
     nothing = nothing && h.kind != HydrodynamicsSpec::Kind::constant && hulls.back().viscous.none();
+    require_factor(h.added_mass_factor, true, spec, "added_mass_factor");
+    require_factor(h.radiation_factor, false, spec, "radiation_factor");
+    if (!std::isfinite(h.diffraction_factor))
+      throw SpecificationError(entry_of(spec), "diffraction_factor", "must be a finite number");
+    diffraction_factors.push_back(h.diffraction_factor);
   }
   if (nothing) return nullptr;
   const BodySpec& first = *bodies.front().afloat.body;
@@ -200,7 +234,7 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
   const int modes = 6 * static_cast<int>(bodies.size());
   MatrixX A_inf = MatrixX::Zero(modes, modes);
   std::unique_ptr<const Radiation> radiation;
-  std::unique_ptr<const Diffraction> diffraction;
+  std::unique_ptr<Diffraction> diffraction;
   if (h.kind == HydrodynamicsSpec::Kind::constant) {
     require_physical(h.added_mass, true, first, "added_mass");
     require_physical(h.damping, false, first, "damping");
@@ -213,23 +247,30 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
     diffraction = build_diffraction(bodies, set, std::move(waves), method, warnings, options);
     A_inf = c.A_inf;
     const bool table = h.kind == HydrodynamicsSpec::Kind::table;
+    std::vector<const BodySpec*> specs;
+    for (const HydrodynamicsBody& body : bodies) specs.push_back(body.afloat.body);
+    const VectorX memory = mode_factors(specs, &HydrodynamicsSpec::radiation_factor);
     const Model model = h.radiation != Model::automatic ? h.radiation : table ? Model::retardation : Model::reduced;
     try {
       if (model == Model::retardation && !c.retardation.empty()) {
-        radiation = std::make_unique<RadiationMemory>(truncated(c.retardation, options.kernel_tolerance), modes);
+        radiation = std::make_unique<RadiationMemory>(
+            scaled(truncated(c.retardation, options.kernel_tolerance), memory), modes);
       } else if (model == Model::reduced) {
-        radiation = std::make_unique<StateSpaceRadiation>(*state_space_for(set, method.fit_tolerance));
+        radiation = std::make_unique<StateSpaceRadiation>(scaled(*state_space_for(set, method.fit_tolerance), memory));
       } else if (model == Model::direct) {
         std::vector<HullAfloat> afloat;
         for (const HydrodynamicsBody& body : bodies) afloat.push_back(body.afloat);
         auto march = march_for(afloat, sea, method, march_key(afloat, sea, method));
         A_inf = march->A_inf();
-        radiation = std::make_unique<RadiationMarch>(std::move(march));
+        radiation = std::make_unique<RadiationMarch>(std::move(march), memory);
       }
     } catch (const SpecificationError& error) {
       throw SpecificationError(entry_of(first), "radiation", error.what());
     }
+    const VectorX inertia = mode_factors(specs, &HydrodynamicsSpec::added_mass_factor);
+    A_inf = inertia.asDiagonal() * A_inf * inertia.asDiagonal();
   }
+  if (diffraction) diffraction->scale(diffraction_factors);
   return std::make_unique<HydrodynamicsElement>(first.name + ".hydrodynamics", std::move(hulls), std::move(A_inf),
                                                 std::move(radiation), std::move(diffraction));
 }

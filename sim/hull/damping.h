@@ -17,6 +17,7 @@ struct ViscousDamping {
   Vector6 linear = Vector6::Zero();     // b, N s/m and N m s, >= 0
   Vector6 quadratic = Vector6::Zero();  // q, N s2/m2 and N m s2, >= 0
 
+  bool operator==(const ViscousDamping&) const = default;
   bool none() const { return linear.isZero(0.0) && quadratic.isZero(0.0); }
   Vector6 force(const Vector6& V) const {
     return -((linear.array() + quadratic.array() * V.array().abs()) * V.array()).matrix();

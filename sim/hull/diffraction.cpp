@@ -120,6 +120,14 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
   }
 }
 
+void Diffraction::scale(std::span<const double> factors) {
+  for (std::size_t hull = 0; hull < hulls_.size(); ++hull)
+    for (Component& component : hulls_[hull]) {
+      component.real *= factors[hull];
+      component.imag *= factors[hull];
+    }
+}
+
 void Diffraction::evaluate(int hull, double t, double x, double y, Vector6& F, Eigen::Matrix<double, 6, 2>& dF) const {
   F.setZero();
   dF.setZero();

@@ -53,6 +53,10 @@ class Diffraction {
   Diffraction(std::shared_ptr<const WaveField> waves, const DiffractionTable& table, std::span<const double> headings,
               double negligible_energy, const std::string& entry);
 
+  /// Multiplies the force on each hull, in order.
+  void scale(std::span<const double> factors);
+
+  bool operator==(const Diffraction& other) const { return *waves_ == *other.waves_ && hulls_ == other.hulls_; }
   bool calm() const { return waves_->calm(); }
   /// Of the sea's energy, 1.
   double share_left_out() const { return left_out_; }
@@ -65,6 +69,7 @@ class Diffraction {
   struct Component {
     Vector6 real, imag;  // a X_D
     double kx, ky, frequency, phase;
+    bool operator==(const Component&) const = default;
   };
   std::shared_ptr<const WaveField> waves_;
   std::vector<std::vector<Component>> hulls_;

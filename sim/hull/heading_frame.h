@@ -18,6 +18,7 @@ struct HeadingFrame {
   double heading = 0.0;           // rad, psi
   Matrix3 R_WH = Matrix3::Identity();
 
+  bool operator==(const HeadingFrame&) const = default;
   HeadingFrame() = default;
   HeadingFrame(int body_, const Vector3& cog_, double heading_)
       : body(body_), cog(cog_), heading(heading_), R_WH(rotation_from({0.0, 0.0, heading_})) {}

@@ -26,6 +26,7 @@ struct HydrodynamicsHull {
   std::string name;  // opens the names of its channels
   HeadingFrame frame;
   ViscousDamping viscous;
+  bool operator==(const HydrodynamicsHull&) const = default;
 };
 
 class HydrodynamicsElement final : public ForceElement {
@@ -36,6 +37,12 @@ class HydrodynamicsElement final : public ForceElement {
   HydrodynamicsElement(std::string name, std::vector<HydrodynamicsHull> hulls, MatrixX A_inf,
                        std::unique_ptr<const Radiation> radiation, std::unique_ptr<const Diffraction> diffraction);
 
+  bool same_as(const ForceElement& other) const override;
+  bool has_history() const override { return radiation_ || diffraction_; }
+  bool add_history_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                           const Eigen::Ref<const MatrixX>& state, Eigen::Ref<MatrixX> dQ) const override;
+  bool advance_state_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                             const BodyChange& to, Eigen::Ref<MatrixX> state) const override;
   int state_size() const override { return radiation_ ? radiation_->state_size() : 0; }
   int scratch_size() const override;
   void start(const Instant& now, Memory m) const override;
@@ -99,6 +106,10 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
                                                   std::shared_ptr<const WaveField> waves, const SeaSpec& sea,
                                                   const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                   const HydrodynamicsOptions& options = {});
+
+/// Square roots S of a factor of each hull, a number a mode: S M S scales what a hull does to itself by its factor and
+/// what two do to each other by the geometric mean, and keeps M symmetric and passive.
+VectorX mode_factors(const std::vector<const BodySpec*>& bodies, double HydrodynamicsSpec::* factor);
 
 /// Every body once, by index: alone, or with the one it is coupled with. Throws SpecificationError
 /// ("bodies.<name>.hydrodynamics") for a partner that does not exist or is taken.

@@ -54,6 +54,10 @@ class Hydrostatics final : public ForceElement {
     largest_elevation_ = largest_elevation(*waves_);
   }
 
+  bool same_as(const ForceElement& other) const override {
+    const auto* o = dynamic_cast<const Hydrostatics*>(&other);
+    return o && o->weight_ == weight_ && o->model_ == model_ && o->r_ == r_ && *o->waves_ == *waves_;
+  }
   int scratch_size() const override { return 22 * static_cast<int>(r_.size()); }
 
   void add_forces(const Instant& now, double, Memory m, ForceSum& out) const override {

@@ -26,6 +26,10 @@ class Radiation {
   int modes() const { return modes_; }
   virtual int state_size() const { return 0; }
   virtual int scratch_size() const { return 0; }
+  /// True if the other gives the same forces from the same motion; false is always safe.
+  virtual bool same_as(const Radiation&) const { return false; }
+  /// True if begin_step and end_step are linear in (state, V) as they stand, so that they advance a tangent as well.
+  virtual bool linear_in_state() const { return false; }
 
   /// A motion that was at rest until just now and has velocity V at this instant.
   virtual void start(std::span<const double> /*V*/, Memory) const {}
@@ -52,6 +56,11 @@ class ConstantRadiation final : public Radiation {
   /// B: modes x modes, symmetric part positive semidefinite (N s/m ...).
   explicit ConstantRadiation(MatrixX B);
 
+  bool same_as(const Radiation& other) const override {
+    const auto* o = dynamic_cast<const ConstantRadiation*>(&other);
+    return o && o->B_ == B_;
+  }
+  bool linear_in_state() const override { return true; }
   void begin_step(double h, Memory m, std::span<double> past, std::span<double> D) const override;
   void force(std::span<const double> V, Memory m, std::span<double> F) const override;
   void instantaneous_damping(std::span<double> D) const override;

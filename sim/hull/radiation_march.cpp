@@ -10,20 +10,29 @@ namespace {
 // State: time since the last node; then six or twelve numbers each: force at the three latest middles, oldest first;
 // velocity at the instant; then the waves.
 constexpr int kForces = 3;
+constexpr std::size_t kMostModes = 24;
 
 }  // namespace
 
-RadiationMarch::RadiationMarch(std::shared_ptr<const rankine::PanelMarch> march)
-    : Radiation(march->modes()), march_(std::move(march)) {}
+RadiationMarch::RadiationMarch(std::shared_ptr<const rankine::PanelMarch> march, const VectorX& factor)
+    : Radiation(march->modes()), march_(std::move(march)), factor_(factor.data(), factor.data() + factor.size()) {}
 
 int RadiationMarch::state_size() const { return 1 + (kForces + 1) * modes() + march_->state_size(); }
 
 void RadiationMarch::start(std::span<const double> V, Memory m) const {
   std::fill(m.state.begin(), m.state.end(), 0.0);
   const int n = modes();
-  const auto waves = m.state.subspan(1 + (kForces + 1) * n);
-  march_->step(V, waves, m.state.subspan(1 + (kForces - 1) * n, n));
+  step(V, m.state);
   std::copy(V.begin(), V.end(), m.state.begin() + 1 + kForces * n);
+}
+
+void RadiationMarch::step(std::span<const double> V, std::span<double> state) const {
+  const std::size_t n = static_cast<std::size_t>(modes());
+  std::array<double, kMostModes> felt;
+  for (std::size_t i = 0; i < n; ++i) felt[i] = factor_[i] * V[i];
+  const std::span<double> newest = state.subspan(1 + (kForces - 1) * n, n);
+  march_->step({felt.data(), n}, state.subspan(1 + (kForces + 1) * n), newest);
+  for (std::size_t i = 0; i < n; ++i) newest[i] *= factor_[i];
 }
 
 void RadiationMarch::force_at(const double* state, double time, std::span<double> F) const {
@@ -51,13 +60,12 @@ void RadiationMarch::end_step(std::span<const double> V, double h, Memory m) con
   while (time >= march_->dt() - 1e-9) {
     time -= march_->dt();
     // Velocity at the node, linear within the step.
-    std::array<double, 24> at_node;
+    std::array<double, kMostModes> at_node;
     const double late = std::clamp(time / h, 0.0, 1.0);
     for (int i = 0; i < n; ++i) at_node[i] = V[i] + late * (before[i] - V[i]);
     double* forces = m.state.data() + 1;
     std::copy(forces + n, forces + kForces * n, forces);
-    march_->step({at_node.data(), static_cast<std::size_t>(n)}, m.state.subspan(1 + (kForces + 1) * n),
-                 m.state.subspan(1 + (kForces - 1) * n, n));
+    step({at_node.data(), static_cast<std::size_t>(n)}, m.state);
   }
   m.state[0] = std::max(0.0, time);
   std::copy(V.begin(), V.end(), before);

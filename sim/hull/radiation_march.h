@@ -15,8 +15,13 @@ namespace stillhook {
 
 class RadiationMarch final : public Radiation {
  public:
-  explicit RadiationMarch(std::shared_ptr<const rankine::PanelMarch> march);
+  /// `factor`: of each mode, on its velocity as the water feels it and on the force; the square scales a hull's memory.
+  RadiationMarch(std::shared_ptr<const rankine::PanelMarch> march, const VectorX& factor);
 
+  bool same_as(const Radiation& other) const override {
+    const auto* o = dynamic_cast<const RadiationMarch*>(&other);
+    return o && o->march_ == march_ && o->factor_ == factor_;
+  }
   int state_size() const override;
   void start(std::span<const double> V, Memory m) const override;
   void begin_step(double h, Memory m, std::span<double> past, std::span<double> D) const override;
@@ -27,7 +32,11 @@ class RadiationMarch final : public Radiation {
  private:
   void force_at(const double* state, double time, std::span<double> F) const;
 
+  /// The march by one of its steps with the velocity V at the new node.
+  void step(std::span<const double> V, std::span<double> state) const;
+
   std::shared_ptr<const rankine::PanelMarch> march_;
+  std::vector<double> factor_;
 };
 
 }  // namespace stillhook

@@ -28,6 +28,10 @@ class RadiationMemory final : public Radiation {
   /// Kernels as they are to be used (see truncated()); modes = 6 per hull. At least one kernel, interval > 0.
   RadiationMemory(const RetardationFunctions& kernels, int modes);
 
+  bool same_as(const Radiation& other) const override {
+    const auto* o = dynamic_cast<const RadiationMemory*>(&other);
+    return o && o->interval_ == interval_ && o->pairs_ == pairs_;
+  }
   int state_size() const override { return layout_.size; }
   void start(std::span<const double> V, Memory m) const override;
   void begin_step(double h, Memory m, std::span<double> past, std::span<double> D) const override;
@@ -41,6 +45,7 @@ class RadiationMemory final : public Radiation {
     std::vector<double> K;        // samples, newest first
     std::vector<double> weights;  // of I_1, oldest first: weights.back() belongs to the node t_g
     double cell_new, cell_old;    // int over one interval of K against the falling and the rising line
+    bool operator==(const Pair&) const = default;
   };
   /// Where things lie in the state.
   struct Layout {

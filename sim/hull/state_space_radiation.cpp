@@ -55,6 +55,11 @@ StateSpaceRadiation::StateSpaceRadiation(const StateSpaceFit& fit) : Radiation(f
   }
 }
 
+bool StateSpaceRadiation::same_as(const Radiation& other) const {
+  const auto* o = dynamic_cast<const StateSpaceRadiation*>(&other);
+  return o && o->modes_ == modes_ && o->poles_ == poles_ && o->residues_ == residues_;
+}
+
 void StateSpaceRadiation::prepare(double h, double* scratch) const {
   if (scratch[0] == h) return;
   for (const Block& block : blocks_) {

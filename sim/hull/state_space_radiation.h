@@ -27,6 +27,8 @@ class StateSpaceRadiation final : public Radiation {
  public:
   explicit StateSpaceRadiation(const StateSpaceFit& fit);
 
+  bool same_as(const Radiation& other) const override;
+  bool linear_in_state() const override { return true; }
   int state_size() const override { return state_size_; }
   int scratch_size() const override { return scratch_size_; }
   void start(std::span<const double> V, Memory m) const override;

@@ -15,6 +15,11 @@ Ballast::Ballast(BallastOptions options) : ForceElement(options.name), options_(
   require(options_.from.body == options_.to.body, "body", "both tanks must be on one body");
 }
 
+bool Ballast::same_as(const ForceElement& other) const {
+  const auto* ballast = dynamic_cast<const Ballast*>(&other);
+  return ballast && ballast->options_ == options_;
+}
+
 double Ballast::weight_moved(const Instant& now) const {
   return options_.mass * options_.gravity * now.drive[options_.drive].position;
 }

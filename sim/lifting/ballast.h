@@ -16,6 +16,8 @@ struct BallastOptions {
   double mass = 0.0;         // kg, moved at drive position 1, >= 0
   double gravity = 9.80665;  // m/s2
   int drive = -1;            // index of the drive, >= 0
+
+  bool operator==(const BallastOptions&) const = default;
 };
 
 class Ballast final : public ForceElement {
@@ -23,6 +25,8 @@ class Ballast final : public ForceElement {
   /// Throws SpecificationError when an option breaks its inequality.
   explicit Ballast(BallastOptions options);
 
+  int drive() const override { return options_.drive; }
+  bool same_as(const ForceElement& other) const override;
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
   double potential_energy(const Instant& now, Memory m) const override;

@@ -26,6 +26,7 @@ struct CatenaryLine {
   double axial_stiffness = 0.0;  // N, > 0
   double seabed_friction = 0.0;  // 1, >= 0
   bool on_seabed = true;         // the anchor lies on a flat seabed; false: the line hangs free below it too
+  bool operator==(const CatenaryLine&) const = default;
 };
 
 struct CatenaryLoad {

@@ -80,6 +80,11 @@ Contact::Contact(ContactOptions options) : ForceElement(options.name), options_(
   c_ = o.damping / static_cast<double>(o.points.size());
 }
 
+bool Contact::same_as(const ForceElement& other) const {
+  const auto* contact = dynamic_cast<const Contact*>(&other);
+  return contact && contact->options_ == options_;
+}
+
 Contact::Surface Contact::surface(const Instant& now) const {
   if (options_.surface.body == kWorld) return {};
   const BodyKinematics& b = now.body[options_.surface.body];

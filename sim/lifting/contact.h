@@ -34,6 +34,8 @@ struct ContactOptions {
   double damping_depth = 0.005;        // m, > 0
   double friction = 0.0;               // 1, >= 0
   int active_from_phase = 0;           // index of the operation's phase with which the contact begins to act
+
+  bool operator==(const ContactOptions&) const = default;
 };
 
 class Contact final : public ForceElement {
@@ -43,6 +45,7 @@ class Contact final : public ForceElement {
 
   const ContactOptions& options() const { return options_; }
 
+  bool same_as(const ForceElement& other) const override;
   int state_size() const override { return kStatesPerPoint * static_cast<int>(options_.points.size()); }
   void start(const Instant& now, Memory m) const override;
   void settle(const Instant& now, Memory m) const override;

@@ -45,6 +45,11 @@ Mooring::Mooring(MooringOptions options, const Instant& initial)
   }
 }
 
+bool Mooring::same_as(const ForceElement& other) const {
+  const auto* mooring = dynamic_cast<const Mooring*>(&other);
+  return mooring && mooring->options_ == options_ && mooring->anchor_ == anchor_;
+}
+
 BodyPoint Mooring::anchor_now(const Instant& now) const {
   BodyPoint point{kWorld, anchor_};
   if (options_.tow_drive >= 0) point.c_B += now.drive[options_.tow_drive].position * options_.tow_direction;

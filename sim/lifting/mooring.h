@@ -29,6 +29,8 @@ struct MooringOptions {
   double anchor_distance = 0.0;              // m, linear: x0 > 0
   int tow_drive = -1;                        // index of the drive that moves the anchor, m; -1 = fixed
   Vector3 tow_direction = Vector3::UnitX();  // unit vector in W
+
+  bool operator==(const MooringOptions&) const = default;
 };
 
 class Mooring final : public ForceElement {
@@ -41,6 +43,15 @@ class Mooring final : public ForceElement {
   /// Where the anchor lies at drive position zero, in W.
   const Vector3& anchor() const { return anchor_; }
 
+  int drive() const override { return options_.tow_drive; }
+  bool same_as(const ForceElement& other) const override;
+  /// Where Newton's method starts does not matter to where it ends.
+  bool has_history() const override { return false; }
+  bool advance_state_tangent(const Instant&, const Instant&, double, Memory, const BodyChange&, const BodyChange&,
+                             Eigen::Ref<MatrixX> state) const override {
+    state.setZero();
+    return true;
+  }
   int state_size() const override { return 2; }  // H, V at the last converged instant, N: where Newton starts
   void start(const Instant& now, Memory m) const override;
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;

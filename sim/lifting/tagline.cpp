@@ -61,6 +61,11 @@ Tagline::Tagline(TaglineOptions options, const Instant& initial)
   angle_.n_H = Vector3(c * r.x() + s * r.y(), -s * r.x() + c * r.y(), 0.0) / level;
 }
 
+bool Tagline::same_as(const ForceElement& other) const {
+  const auto* line = dynamic_cast<const Tagline*>(&other);
+  return line && line->options_ == options_ && line->k_ == k_ && line->angle_.n_H == angle_.n_H;
+}
+
 Tagline::Command Tagline::command(const PlaneAngle::Value& angle, bool pulling) const {
   const TaglineOptions& o = options_;
   Command c{.value = o.pretension};

@@ -53,6 +53,8 @@ struct TaglineOptions {
   double axial_stiffness = 2.0e7;      // EA, N, > 0
   bool active = true;                  // false: no line
   int active_from_phase = 0;           // index of the operation's phase with which the line is connected
+
+  bool operator==(const TaglineOptions&) const = default;
 };
 
 enum class TaglineCase { A, B, C };
@@ -74,6 +76,7 @@ class Tagline final : public ForceElement {
   double line_stiffness() const { return k_; }  // N/m
   const PlaneAngle& angle() const { return angle_; }
 
+  bool same_as(const ForceElement& other) const override;
   int state_size() const override { return kStates; }
   int scratch_size() const override { return kScratch; }
   void start(const Instant& now, Memory m) const override;

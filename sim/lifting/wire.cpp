@@ -37,6 +37,11 @@ Wire::Unstretched Wire::unstretched(const Instant& now) const {
   return {length, -drive.rate};
 }
 
+bool Wire::same_as(const ForceElement& other) const {
+  const auto* wire = dynamic_cast<const Wire*>(&other);
+  return wire && wire->options_ == options_;
+}
+
 double Wire::unstretched_length(const Instant& now) const { return unstretched(now).length; }
 
 double Wire::tension(const Instant& now) const {

@@ -25,6 +25,8 @@ struct WireOptions {
   double damping_strain = 1e-4;     // 1, strain over which the damping grows to its full value, > 0
   int drive = -1;                   // index of the winch, m hauled in; -1 = fixed length
   int crane = kWorld;               // body whose heading gives fore-aft and athwart for off-lead and side-lead
+
+  bool operator==(const WireOptions&) const = default;
 };
 
 /// c = 2 zeta sqrt(EA/L0 m), N s/m.
@@ -48,6 +50,8 @@ class Wire final : public ForceElement {
   double unstretched_length(const Instant& now) const;
   double tension(const Instant& now) const;  // N
 
+  int drive() const override { return options_.drive; }
+  bool same_as(const ForceElement& other) const override;
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
   double potential_energy(const Instant& now, Memory m) const override;

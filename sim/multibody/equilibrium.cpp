@@ -8,6 +8,9 @@ namespace {
 
 constexpr int kMaxIterations = 600;
 constexpr double kTolerance = 1e-9;      // out-of-balance force over the largest weight
+// Then it is polished while each iteration takes away this factor, down to rounding: derivatives of an equilibrium are
+// differences of two of them.
+constexpr double kPolish = 0.2;
 constexpr double kSmallestShift = 1e-6;  // 1/s2, against (0.09 rad/s)^2 = 8e-3 of a slow mooring mode
 constexpr double kLargestShift = 20.0;   // 1/s2, above the frequencies of a lift as a whole
 constexpr double kLargestMove = 3.0;     // m a step
@@ -54,7 +57,7 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
   EquilibriumReport report;
   MatrixX A(n + m, n + m), C_q;
   VectorX Q(n), C, b(n + m);
-  double shift = 1.0, last = -1.0;
+  double shift = 1.0, last = -1.0, polished = 0.0;
   if (static_cast<int>(state.element_state.size()) != system.element_state_size()) system.start_elements(state, work);
   for (report.iterations = 0; report.iterations < kMaxIterations; ++report.iterations) {
     system.forces(state, 0.0, work, Q);
@@ -66,10 +69,14 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
     report.worst_body = system.bodies[worst / 6].name;
     if (!std::isfinite(report.residual)) return report;
     const double gap = m > 0 ? C.cwiseAbs().maxCoeff() : 0.0;
-    if (report.residual < kTolerance && gap < 1e-10) {
-      report.converged = true;
+    const bool close = report.residual < kTolerance && gap < 1e-10;
+    if (close && report.converged && !(report.residual < kPolish * polished)) {
       system.settle_elements(state, work);
       return report;
+    }
+    if (close) {
+      report.converged = true;
+      polished = report.residual;
     }
     const double size = report.residual + gap;
     // Rising faster than it falls, the shift leaves every cycle between two sides of a kink.

@@ -195,6 +195,7 @@ bool HhtStepper::step(SystemState& state, double h, std::span<const DriveState> 
   follow_mass(state);
   // `state` is left alone until the step has converged: elements prepare on the copy, which still stands at t_n.
   next_.t = state.t;
+  next_.phase = state.phase;
   next_.body = state.body;
   next_.drive = state.drive;
   next_.element_state = state.element_state;

@@ -45,6 +45,7 @@ class HhtStepper {
   SystemWorkspace& workspace() { return work_; }
 
  private:
+  friend class HhtTangent;
   // When the matrix of Newton's method is made anew: not at all, at the predicted state, in every iteration.
   enum class Renew { never, once, always };
 

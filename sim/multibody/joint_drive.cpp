@@ -33,6 +33,14 @@ double JointDrive::stretch_rate(const Instant& now) const {
 
 double JointDrive::load(const Instant& now) const { return -stiffness_ * stretch(now) - damping_ * stretch_rate(now); }
 
+bool JointDrive::same_as(const ForceElement& other) const {
+  const auto* drive = dynamic_cast<const JointDrive*>(&other);
+  return drive && drive->stiffness_ == stiffness_ && drive->damping_ == damping_ && drive->rest_ == rest_ &&
+         drive->joint_.on_parent == joint_.on_parent && drive->joint_.on_child == joint_.on_child &&
+         drive->joint_.frame_on_parent == joint_.frame_on_parent &&
+         drive->joint_.frame_on_child == joint_.frame_on_child;
+}
+
 void JointDrive::add_forces(const Instant& now, double, Memory, ForceSum& out) const {
   const Vector3 load_W = load(now) * joint_.axis(now);
   const int p = joint_.on_parent.body, c = joint_.on_child.body;

@@ -9,6 +9,7 @@ namespace stillhook {
 struct BodyPoint {
   int body = kWorld;
   Vector3 c_B = Vector3::Zero();  // m, p_CT in B; for the world: p_WT
+  bool operator==(const BodyPoint&) const = default;
 };
 
 /// Position and velocity of a point, and the maps from (dp, dtheta) and (dv, dw) of its body.

@@ -42,9 +42,9 @@ SystemWorkspace MultibodySystem::make_workspace() const {
   return work;
 }
 
-Memory MultibodySystem::memory(int e, SystemState& state, SystemWorkspace& work) const {
-  return {std::span(state.element_state).subspan(state_offset_[e], elements[e]->state_size()),
-          std::span(work.element_scratch).subspan(scratch_offset_[e], elements[e]->scratch_size())};
+Memory MultibodySystem::memory_in(int e, std::vector<double>& states, std::vector<double>& scratch) const {
+  return {std::span(states).subspan(state_offset_[e], elements[e]->state_size()),
+          std::span(scratch).subspan(scratch_offset_[e], elements[e]->scratch_size())};
 }
 
 void MultibodySystem::start_elements(SystemState& state, SystemWorkspace& work) const {

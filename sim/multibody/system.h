@@ -68,7 +68,13 @@ class MultibodySystem {
     return valid->M;
   }
   SystemWorkspace make_workspace() const;
-  Memory memory(int element, SystemState& state, SystemWorkspace& work) const;
+  Memory memory(int element, SystemState& state, SystemWorkspace& work) const {
+    return memory_in(element, state.element_state, work.element_scratch);
+  }
+  /// The element's parts of the states and the scratch of all elements.
+  Memory memory_in(int element, std::vector<double>& states, std::vector<double>& scratch) const;
+  /// Where the element's state begins among those of all elements.
+  int state_offset(int element) const { return state_offset_[element]; }
 
   // Internal states of the elements, see ForceElement.
   void start_elements(SystemState& state, SystemWorkspace& work) const;

@@ -20,6 +20,7 @@ struct WaveComponent {
   double wavenumber;    // 1/m
   double cos_heading, sin_heading;
   double phase;         // rad, added to theta
+  bool operator==(const WaveComponent&) const = default;
 };
 
 /// Elevation and pressure head at points, and their spatial gradients. Arrays of equal length, structure of arrays.
@@ -35,6 +36,7 @@ class WaveField {
   WaveField() = default;  // calm
   WaveField(std::vector<WaveComponent> components, double ramp);
 
+  bool operator==(const WaveField&) const = default;
   bool calm() const { return components_.empty(); }
   const std::vector<WaveComponent>& components() const { return components_; }
 

@@ -6,17 +6,14 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "results/archive.h"
-#include "tests/planner/documented_keys.h"
 #include "tests/planner/program.h"
 
 using namespace stillhook;
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -170,15 +167,4 @@ TEST_CASE("a read-only folder is refused with a sentence", "[archive]") {
   CHECK(exported.code == 2);
   CHECK_THAT(exported.err, Catch::Contains(where + ".csv"));
   fs::permissions(folder / "locked", fs::perms::owner_all);
-}
-
-TEST_CASE("every key of a summary is in docs/summary.md", "[docs]") {
-  const Folder folder;
-  const json simulated = json::parse(run(folder, {"simulate", kCase, "--json", "--out", "s"}).out);
-  CHECK(undocumented_keys(simulated) == std::set<std::string>{});
-  const json planned = json::parse(run(folder, {"plan", kCase, "--json", "--out", "p", "--evaluations", "4"}).out);
-  CHECK(planned.contains("objective"));
-  CHECK(undocumented_keys(planned) == std::set<std::string>{});
-  // The check itself finds what is missing, however deep.
-  CHECK(undocumented_keys({{"status", {{{"no_such_key", 1}}}}}) == std::set<std::string>{"no_such_key"});
 }

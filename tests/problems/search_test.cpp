@@ -8,8 +8,8 @@
 #include <limits>
 #include <set>
 
-#include "problems/search/nlopt_search.h"
 #include "problems/search/random_search.h"
+#include "tests/problems/search_problems.h"
 #include "tests/truth/hock_schittkowski.h"
 
 using namespace stillhook;
@@ -21,27 +21,6 @@ SearchOptions with_budget(int evaluations, unsigned long seed = 1) {
   options.evaluations = evaluations;
   options.seed = seed;
   return options;
-}
-
-SearchProblem plain(Eigen::VectorXd lower, Eigen::VectorXd upper, Eigen::VectorXd start,
-                    std::function<double(const Eigen::VectorXd&)> f) {
-  SearchProblem problem;
-  for (Eigen::Index i = 0; i < start.size(); ++i)
-    problem.variable_names.push_back(std::string("v").append(std::to_string(i)));
-  problem.lower = std::move(lower);
-  problem.upper = std::move(upper);
-  problem.start = std::move(start);
-  problem.evaluate = [f = std::move(f)](const Eigen::VectorXd& x) {
-    Evaluation e;
-    e.usable = true;
-    e.objective = f(x);
-    return e;
-  };
-  return problem;
-}
-
-Eigen::VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
 }
 
 }  // namespace
@@ -61,6 +40,23 @@ TEST_CASE("isres then cobyla solves the Hock-Schittkowski problems with inequali
       CHECK(report.evaluations <= 1000);
       const SearchReport sample = random_search(hs.problem, with_budget(1000, seed));
       CHECK(better(report.best, sample.best));
+    }
+}
+
+TEST_CASE("the second part may use gradients") {
+  for (const std::string local : {"ipopt", "slsqp"})
+    for (const truth::HockSchittkowski& hs : truth::inequality_problems()) {
+      CAPTURE(local, hs.problem.name);
+      SearchOptions options = with_budget(120);
+      options.global_share = 0.3;
+      options.local_algorithm = local;
+      const SearchReport report = search(hs.problem, options);
+      CHECK(report.feasible);
+      CHECK(report.algorithm == "isres+" + local);
+      // As above; the budget is an eighth.
+      CHECK(std::abs(report.best.objective - hs.optimum) <= 1e-5 * std::max(1.0, std::abs(hs.optimum)));
+      CHECK(report.gradients < report.evaluations);
+      CHECK(report.gradients > 0);
     }
 }
 
@@ -127,25 +123,9 @@ TEST_CASE("the budget is kept exactly and the start is evaluated first, to the b
   CHECK(report.best_x[1] == Approx(2.0).margin(1e-3));
 }
 
-TEST_CASE("every algorithm that can be named comes near a smooth optimum") {
-  const SearchProblem problem = plain(vec({-3, -2, -4}), vec({5, 4, 3}), vec({4, -1, 2}), [](const Eigen::VectorXd& x) {
-    return std::pow(x[0] - 1, 2) + 4 * std::pow(x[1] - 0.5, 2) + 0.5 * std::pow(x[2] + 1 + 0.2 * x[0], 2);
-  });
-  for (const NloptAlgorithm& algorithm : nlopt_algorithms()) {
-    CAPTURE(algorithm.name);
-    NloptOptions options;
-    options.algorithm = algorithm.name;
-    options.evaluations = 3000;
-    const SearchReport report = nlopt_search(problem, options);
-    CHECK(report.status != SearchStatus::failed);
-    CHECK(report.feasible);
-    // From 42 at the start. The evolution strategies are slow near an optimum; the local ones are not.
-    CHECK(report.best.objective <= (algorithm.global ? 0.2 : 1e-8));
-  }
-}
-
 TEST_CASE("constraints with an algorithm that has none are refused, naming those that can") {
   SearchProblem problem = truth::inequality_problems()[0].problem;
+  problem.evaluate_with_gradient = nullptr;
   SearchOptions options;
   options.global_algorithm = "crs2";
   CHECK_THROWS_WITH(search(problem, options), Catch::Contains("crs2") && Catch::Contains("isres, orig_direct"));
@@ -248,22 +228,8 @@ TEST_CASE("graded failures lead towards what works, also under constraints") {
   CHECK(report.best.objective == Approx(0.04).margin(1e-3));  // (0.25, 0.6)
 }
 
-TEST_CASE("an exception stops the search at once and arrives unchanged") {
-  struct Odd : std::exception {
-    const char* what() const noexcept override { return "odd"; }
-  };
-  for (const NloptAlgorithm& algorithm : nlopt_algorithms()) {
-    CAPTURE(algorithm.name);
-    int calls = 0;
-    SearchProblem problem = plain(vec({0, 0}), vec({1, 1}), vec({0.4, 0.6}), [&](const Eigen::VectorXd& x) {
-      if (++calls == 5) throw Odd();
-      return x.squaredNorm();
-    });
-    NloptOptions options;
-    options.algorithm = algorithm.name;
-    CHECK_THROWS_AS(nlopt_search(problem, options), Odd);
-    CHECK(calls == 5);
-  }
+TEST_CASE("an exception out of a random sample arrives unchanged") {
+  struct Odd : std::exception {};
   SearchProblem problem = plain(vec({0, 0}), vec({1, 1}), vec({0.4, 0.6}),
                                 [&](const Eigen::VectorXd& x) { return x[0] > 0.5 ? throw Odd() : x[0]; });
   CHECK_THROWS_AS(random_search(problem, with_budget(50)), Odd);

@@ -1,0 +1,196 @@
+#include "results/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/hull/mesh_file.h"
+#include "sim/lifting/catenary.h"
+
+namespace stillhook {
+namespace {
+
+constexpr std::size_t kMostTriangles = 1'000'000;
+/// Section of a member whose clearance does not give it, as a share of its length.
+constexpr double kSlenderness = 0.02;
+/// Points of a body closer together than this (m) are one.
+constexpr double kSamePoint = 0.5;
+
+int body_index(const Specification& s, const std::string& name) {
+  for (std::size_t i = 0; i < s.bodies.size(); ++i)
+    if (s.bodies[i].name == name) return static_cast<int>(i);
+  return kSceneWorld;
+}
+
+Mesh plain_box(const Vector3& low, const Vector3& high) {
+  const Vector3 size = high - low;
+  return box_mesh(size, 0.5 * (low + high), 2.0 * size.maxCoeff());
+}
+
+Mesh hull_mesh(const HullSpec& hull) {
+  if (hull.shape == HullSpec::Shape::box)
+    return plain_box(hull.centre - 0.5 * hull.size, hull.centre + 0.5 * hull.size);
+  if (hull.shape != HullSpec::Shape::mesh) return {};
+  try {
+    Mesh mesh = read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend});
+    if (mesh.triangles.size() <= kMostTriangles) return mesh;
+  } catch (const MeshError&) {  // the run had it; it is gone since
+  }
+  return {};
+}
+
+/// Every clearance shape of a body.
+std::vector<ClearanceSpec::Shape> shapes_of(const Specification& s, const std::string& body) {
+  std::vector<ClearanceSpec::Shape> shapes;
+  for (const ClearanceSpec& c : s.clearances)
+    for (const ClearanceSpec::Shape* shape : {&c.a, &c.b})
+      if (shape->body == body) shapes.push_back(*shape);
+  return shapes;
+}
+
+/// Where wires and lines are fixed to a body.
+std::vector<Vector3> line_points(const Specification& s, const std::string& body) {
+  std::vector<Vector3> points;
+  const auto add = [&](const std::string& name, const Vector3& p) {
+    if (name == body) points.push_back(p);
+  };
+  for (const WireSpec& w : s.wires) {
+    add(w.from, w.point_from);
+    add(w.to, w.point_to);
+  }
+  for (const TaglineSpec& t : s.taglines) {
+    add(t.from, t.point_from);
+    add(t.to, t.point_to);
+  }
+  for (const MooringSpec& m : s.moorings) add(m.body, m.fairlead);
+  return points;
+}
+
+/// The box that a clearance gives, or the one around contact and lift points; empty without either.
+Mesh known_box(const Specification& s, const std::string& body) {
+  for (const ClearanceSpec::Shape& shape : shapes_of(s, body))
+    if (!(shape.radius > 0.0)) return plain_box(shape.from.cwiseMin(shape.to), shape.from.cwiseMax(shape.to));
+  std::vector<Vector3> points;
+  for (const ContactSpec& c : s.contacts)
+    if (c.body == body) points.insert(points.end(), c.points.begin(), c.points.end());
+  if (points.empty()) return {};
+  for (const Vector3& p : line_points(s, body)) points.push_back(p);
+  Vector3 low = points.front(), high = points.front();
+  for (const Vector3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (int i = 0; i < 3; ++i)  // points in a plane: give the box a thickness
+    if (high[i] - low[i] < kSamePoint) {
+      low[i] -= 0.5 * kSamePoint;
+      high[i] += 0.5 * kSamePoint;
+    }
+  return plain_box(low, high);
+}
+
+std::vector<SceneBody::Member> members_of(const Specification& s, const std::string& body) {
+  std::vector<SceneBody::Member> members;
+  const auto add = [&](const Vector3& from, const Vector3& to, double radius) {
+    for (const SceneBody::Member& m : members)
+      if ((m.from - from).norm() < kSamePoint && (m.to - to).norm() < kSamePoint) return;
+    members.push_back({from, to, radius});
+  };
+  for (const ClearanceSpec::Shape& shape : shapes_of(s, body))
+    if (shape.radius > 0.0) add(shape.from, shape.to, shape.radius);
+  if (!members.empty()) return members;
+  Vector3 root = Vector3::Zero();
+  for (const JointSpec& j : s.joints)
+    if (j.child == body) root = j.point_on_child;
+  for (const Vector3& p : line_points(s, body)) {
+    const double length = (p - root).norm();
+    if (length >= kSamePoint) add(root, p, kSlenderness * length);
+  }
+  return members;
+}
+
+SceneBody scene_body(const Specification& s, const BodySpec& body) {
+  SceneBody out;
+  out.name = body.name;
+  out.mesh = hull_mesh(body.hull);
+  out.floats = !out.mesh.triangles.empty();
+  out.kind = body.name == s.operation.load    ? SceneBody::Kind::load
+             : body.name == s.operation.crane ? SceneBody::Kind::crane
+             : out.floats                     ? SceneBody::Kind::vessel
+                                              : SceneBody::Kind::member;
+  if (out.mesh.triangles.empty()) out.mesh = known_box(s, body.name);
+  if (out.mesh.triangles.empty()) out.members = members_of(s, body.name);
+  return out;
+}
+
+SceneLine::Kind kind_of(WireSpec::Role role) {
+  switch (role) {
+    case WireSpec::Role::hoist:
+      return SceneLine::Kind::hoist;
+    case WireSpec::Role::luffing:
+      return SceneLine::Kind::luffing;
+    case WireSpec::Role::stay:
+      return SceneLine::Kind::stay;
+    case WireSpec::Role::sling:
+      return SceneLine::Kind::sling;
+    case WireSpec::Role::other:
+      break;
+  }
+  return SceneLine::Kind::other;
+}
+
+double largest_static(const Trajectory& trajectory, const std::string& channel) {
+  double largest = 0.0;
+  for (const StaticPose& pose : trajectory.static_poses)
+    if (const auto found = pose.values.find(channel); found != pose.values.end() && std::isfinite(found->second))
+      largest = std::max(largest, found->second);
+  return largest;
+}
+
+double phase_start(const Trajectory& trajectory, const std::string& phase) {
+  if (phase.empty()) return trajectory.phases.empty() ? 0.0 : trajectory.phases.front().start;
+  for (const PhaseRecord& p : trajectory.phases)
+    if (p.name == phase) return p.start;
+  return std::numeric_limits<double>::infinity();  // never reached in this run
+}
+
+SceneMooring scene_mooring(const Specification& s, const Trajectory& trajectory, const MooringSpec& spec) {
+  SceneMooring m;
+  m.name = spec.name;
+  m.body = body_index(s, spec.body);
+  m.fairlead = spec.fairlead;
+  m.tow = spec.tow;
+  m.tow_direction = spec.tow_direction;
+  Pose X_WB;
+  if (!trajectory.static_poses.empty() && m.body >= 0 &&
+      static_cast<std::size_t>(m.body) < trajectory.static_poses.front().bodies.size())
+    X_WB = trajectory.static_poses.front().bodies[static_cast<std::size_t>(m.body)];
+  const Vector3 fairlead = X_WB * spec.fairlead;
+  const Vector3 outward(std::cos(spec.azimuth), std::sin(spec.azimuth), 0.0);
+  m.anchor = fairlead + spec.anchor_distance * outward;
+  if (spec.type != MooringSpec::Type::catenary) return m;
+  m.weight = spec.weight;
+  const CatenaryLine line{spec.length, spec.weight, spec.axial_stiffness, spec.seabed_friction, true};
+  m.anchor = fairlead + catenary_distance(line, spec.pretension, fairlead.z() + s.sea.depth) * outward;
+  m.anchor.z() = -s.sea.depth;
+  return m;
+}
+
+}  // namespace
+
+Scene build_scene(const Specification& s, const Trajectory& trajectory) {
+  Scene scene;
+  for (const BodySpec& body : s.bodies) scene.bodies.push_back(scene_body(s, body));
+  for (const WireSpec& w : s.wires)
+    scene.lines.push_back({w.name, kind_of(w.role), body_index(s, w.from), body_index(s, w.to), w.point_from,
+                           w.point_to, largest_static(trajectory, w.name + ".tension"), phase_start(trajectory, "")});
+  for (const TaglineSpec& t : s.taglines)
+    if (t.active)
+      scene.lines.push_back({t.name, SceneLine::Kind::tagline, body_index(s, t.from), body_index(s, t.to), t.point_from,
+                             t.point_to, t.tension_max, phase_start(trajectory, t.active_from)});
+  for (const MooringSpec& m : s.moorings) scene.moorings.push_back(scene_mooring(s, trajectory, m));
+  for (const ContactSpec& c : s.contacts)
+    scene.surfaces.push_back(
+        {c.name, c.role, body_index(s, c.surface_body), c.surface_centre, c.surface_length, c.surface_breadth});
+  return scene;
+}
+
+}  // namespace stillhook

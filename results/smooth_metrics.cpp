@@ -1,0 +1,255 @@
+#include "results/smooth_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+
+#include "results/run_view.h"
+
+namespace stillhook {
+namespace {
+
+using Stage = PhaseSpec::Stage;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Integral of f(sample) over a phase from start to end, the ends between samples by linear interpolation.
+double window_integral(const RunView& view, std::size_t phase, const std::function<double(std::size_t)>& f) {
+  const std::vector<double>& time = view.run().time;
+  const PhaseRecord& record = view.run().phases[phase];
+  double sum = 0.0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    const double a = std::max(time[i - 1], record.start), b = std::min(time[i], record.end);
+    if (!(b > a)) continue;
+    const double length = time[i] - time[i - 1], f0 = f(i - 1), f1 = f(i);
+    const double sa = (a - time[i - 1]) / length, sb = (b - time[i - 1]) / length;
+    sum += (b - a) * (f0 + 0.5 * (sa + sb) * (f1 - f0));
+  }
+  return sum;
+}
+
+double length_of(const RunView& view, const std::vector<std::size_t>& phases) {
+  double sum = 0.0;
+  for (const std::size_t p : phases) sum += view.run().phases[p].end - view.run().phases[p].start;
+  return sum;
+}
+
+/// Mean over the phases.
+double window_mean(const RunView& view, const std::vector<std::size_t>& phases,
+                   const std::function<double(std::size_t phase, std::size_t sample)>& f) {
+  double sum = 0.0;
+  for (const std::size_t p : phases) sum += window_integral(view, p, [&](std::size_t i) { return f(p, i); });
+  const double length = length_of(view, phases);
+  return length > 0.0 ? sum / length : kNaN;
+}
+
+/// The log-sum-exp of f over the phases.
+double soft_peak(const RunView& view, const std::vector<std::size_t>& phases, double sharpness,
+                 const std::function<double(std::size_t phase, std::size_t sample)>& f) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::size_t p : phases) {
+    const RunView::Range range = view.samples(p);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      low = std::min(low, f(p, i));
+      high = std::max(high, f(p, i));
+    }
+  }
+  if (!(high > low)) return high;
+  // Scale and shift are rounded to a grid of powers of two, so that a small change of the run does not change them.
+  const double s = sharpness / std::exp2(std::ceil(std::log2(high - low)));
+  const double shift = std::exp2(std::ceil(std::log2(std::abs(high) + 1e-12))) * (high < 0.0 ? -0.5 : 1.0);
+  const double mean = window_mean(view, phases, [&](std::size_t p, std::size_t i) {
+    return std::exp(s * (f(p, i) - shift));
+  });
+  return shift + std::log(mean) / s;
+}
+
+struct HoistWires {
+  std::vector<std::string> names;
+  explicit HoistWires(const Specification& s) {
+    for (const WireSpec& w : s.wires)
+      if (w.role == WireSpec::Role::hoist) names.push_back(w.name);
+  }
+};
+
+/// By sample, computed once: f is asked for again and again.
+std::vector<double> tabulated(const RunView& view, std::size_t phase,
+                              const std::function<double(std::size_t sample)>& f) {
+  std::vector<double> values(view.run().time.size(), 0.0);
+  RunView::Range range = view.samples(phase);
+  // One sample beyond either end: the window may end between samples.
+  if (range.first > 0) --range.first;
+  range.last = std::min(range.last + 1, values.size());
+  for (std::size_t i = range.first; i < range.last; ++i) values[i] = f(i);
+  return values;
+}
+
+using Tables = std::vector<std::vector<double>>;  // [phase][sample]
+
+Tables tables(const RunView& view, const std::vector<std::size_t>& phases,
+              const std::function<double(std::size_t phase, std::size_t sample)>& f) {
+  Tables all(view.run().phases.size());
+  for (const std::size_t p : phases) all[p] = tabulated(view, p, [&](std::size_t i) { return f(p, i); });
+  return all;
+}
+
+/// Swing relative to the static offset, mean of the hoist wires, m.
+Tables swing(const RunView& view, const std::vector<std::size_t>& phases, const char* axis) {
+  const HoistWires hoist(view.specification());
+  return tables(view, phases, [&](std::size_t p, std::size_t i) {
+    double sum = 0.0;
+    for (const std::string& wire : hoist.names)
+      sum += view.series(wire + axis)[i] - view.static_at(p, view.run().time[i], wire + axis);
+    return sum / static_cast<double>(hoist.names.size());
+  });
+}
+
+std::optional<double> smooth_sway(const RunView& view, const std::string& name, const SmoothOptions& options) {
+  const std::size_t dot = name.find('.');
+  std::vector<std::size_t> phases = view.phases_of({Stage::hanging});
+  if (dot != std::string::npos) {
+    phases.clear();
+    for (std::size_t p = 0; p < view.run().phases.size(); ++p)
+      if (view.run().phases[p].name == name.substr(dot + 1)) phases.push_back(p);
+  }
+  if (phases.empty()) return std::nullopt;
+  const std::string stem = name.substr(0, dot);
+  const bool peak = stem == "sway_peak";
+  const Tables x = stem == "sway_y_rms" ? Tables{} : swing(view, phases, ".offset_x");
+  const Tables y = stem == "sway_x_rms" ? Tables{} : swing(view, phases, ".offset_y");
+  const auto square = [&](std::size_t p, std::size_t i) {
+    return (x.empty() ? 0.0 : x[p][i] * x[p][i]) + (y.empty() ? 0.0 : y[p][i] * y[p][i]);
+  };
+  if (!peak) return std::sqrt(window_mean(view, phases, square));
+  return std::sqrt(std::max(0.0, soft_peak(view, phases, options.sharpness, square)));
+}
+
+/// Soft peak of (sum of tensions)/(sum of static tensions).
+double soft_ratio(const RunView& view, const std::vector<std::string>& wires, const SmoothOptions& options) {
+  const std::vector<std::size_t> phases = view.phases_of({Stage::hanging});
+  const Tables ratio = tables(view, phases, [&](std::size_t p, std::size_t i) {
+    double tension = 0.0, at_rest = 0.0;
+    for (const std::string& wire : wires) {
+      tension += view.series(wire + ".tension")[i];
+      at_rest += view.static_at(p, view.run().time[i], wire + ".tension");
+    }
+    return tension / at_rest;
+  });
+  return soft_peak(view, phases, options.sharpness, [&](std::size_t p, std::size_t i) { return ratio[p][i]; });
+}
+
+std::optional<double> smooth_daf(const RunView& view, const std::string& name, const SmoothOptions& options) {
+  const HoistWires hoist(view.specification());
+  if (view.phases_of({Stage::hanging}).empty() || hoist.names.empty()) return std::nullopt;
+  if (name == "daf_total") return soft_ratio(view, hoist.names, options);
+  if (name.starts_with("daf.")) return soft_ratio(view, {name.substr(4)}, options);
+  // The larger of the wires, smoothly: they swing together, so the root mean of high powers.
+  constexpr double kPower = 64.0;
+  double sum = 0.0;
+  for (const std::string& wire : hoist.names) sum += std::pow(soft_ratio(view, {wire}, options), kPower);
+  const double largest = std::pow(sum / static_cast<double>(hoist.names.size()), 1.0 / kPower);
+  return name == "daf_excess" ? largest - 1.0 : largest;
+}
+
+/// x for x > w, 0 for x < -w, a parabola in between.
+double soft_positive(double x, double w) {
+  if (x <= -w) return 0.0;
+  if (x >= w) return x;
+  return (x + w) * (x + w) / (4.0 * w);
+}
+
+std::optional<double> smooth_rehits(const RunView& view, const SmoothOptions& options) {
+  const Specification& s = view.specification();
+  std::vector<std::size_t> lifting = view.phases_of({Stage::transfer});
+  if (lifting.empty()) lifting = view.phases_of({Stage::hanging});
+  if (lifting.empty()) return std::nullopt;
+  double mass = 0.0, sum = 0.0;
+  for (const BodySpec& b : s.bodies)
+    if (b.name == s.operation.load) mass = b.mass;
+  for (const ContactSpec& contact : s.contacts) {
+    if (contact.role != ContactSpec::Role::pickup) continue;
+    const auto gap = view.series(contact.name + ".gap");
+    const std::vector<double>& time = view.run().time;
+    bool clear = false;
+    double before = 0.0;
+    for (std::size_t i = 0; i < gap.size(); ++i) {
+      if (time[i] < view.run().phases[lifting.front()].start) continue;
+      const double now = contact.stiffness * soft_positive(-gap[i], options.gap_width);
+      if (clear) sum += 0.5 * (before + now) * (time[i] - time[i - 1]);
+      clear = clear || gap[i] > options.gap_width;
+      before = now;
+    }
+  }
+  return mass > 0.0 ? std::optional(sum / (mass * options.rehit_speed)) : std::nullopt;
+}
+
+std::optional<double> smooth_saturation(const RunView& view, const SmoothOptions& options) {
+  double sum = 0.0;
+  int lines = 0;
+  for (const TaglineSpec& line : view.specification().taglines) {
+    if (!line.active) continue;
+    const auto speed = view.series(line.name + ".line_speed"), command = view.series(line.name + ".command");
+    if (speed.empty() || command.empty()) return std::nullopt;
+    const auto share = [&](double value, double limit) {
+      return limit > 0.0 ? 1.0 / (1.0 + std::exp((1.0 - std::abs(value) / limit) / options.saturation_width)) : 0.0;
+    };
+    sum += window_mean(view, view.all_phases(), [&](std::size_t, std::size_t i) {
+      const double a = share(speed[i], line.speed_max), b = share(command[i], line.tension_max);
+      // At the limit the logistic is one half.
+      return std::min(1.0, 2.0 * (a + b - a * b));
+    });
+    ++lines;
+  }
+  return lines > 0 ? std::optional(sum / lines) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> smooth_metric(const Specification& specification, const Trajectory& run, const std::string& name,
+                                    const SmoothOptions& options) {
+  if (run.phases.empty() || run.time.empty()) return std::nullopt;
+  const RunView view(specification, run);
+  if (name == "duration") return run.phases.back().end - run.phases.front().start;
+  if (name.starts_with("sway_")) return smooth_sway(view, name, options);
+  if (name.starts_with("daf")) return smooth_daf(view, name, options);
+  if (name == "rehits") return smooth_rehits(view, options);
+  if (name == "tagline_saturated") return smooth_saturation(view, options);
+  return std::nullopt;
+}
+
+std::vector<std::string> channels_of_metric(const Specification& s, const std::string& name) {
+  std::set<std::string> all;
+  const auto of = [&](const std::string& entry, std::initializer_list<const char*> quantities) {
+    for (const char* q : quantities) all.insert(entry + q);
+  };
+  const auto starts = [&](const char* with) { return name.starts_with(with); };
+  const bool pose = starts("range_") || starts("mean_") || starts("setdown_") || starts("load_");
+  const bool crane = starts("heel") || starts("trim");
+  for (const WireSpec& w : s.wires) {
+    const bool hoist = w.role == WireSpec::Role::hoist;
+    if (starts("sway") && hoist) of(w.name, {".offset_x", ".offset_y"});
+    if ((starts("offlead") || starts("sidelead")) && hoist) of(w.name, {".tension", ".off_lead", ".side_lead"});
+    if (((starts("daf") || starts("slack") || starts("hook")) && hoist) || starts("daf.") || starts("tension") ||
+        starts("winch") || starts("wire"))
+      of(w.name, {".tension"});
+    if (starts("lift_off") && hoist) of(w.name, {".length"});
+  }
+  for (const TaglineSpec& t : s.taglines)
+    if (starts("tagline")) of(t.name, {".tension", ".command", ".line_speed", ".saturated"});
+  for (const MooringSpec& m : s.moorings)
+    if (starts("mooring")) of(m.name, {".tension"});
+  for (const ContactSpec& c : s.contacts)
+    if (name == "rehits" && c.role == ContactSpec::Role::pickup) of(c.name, {".gap"});
+  const auto body = [&](const std::string& b) { of(b, {".x", ".y", ".z", ".roll", ".pitch", ".yaw"}); };
+  if (pose && !s.operation.load.empty()) body(s.operation.load);
+  if (crane && !s.operation.crane.empty()) body(s.operation.crane);
+  for (const ClearanceSpec& c : s.clearances)
+    if (name == "clearance_min." + c.name)
+      for (const std::string& b : {c.a.body, c.b.body})
+        if (b != "world") body(b);
+  for (const DriveSpec& d : s.drives) of(d.name, {".position", ".rate"});
+  return {all.begin(), all.end()};
+}
+
+}  // namespace stillhook

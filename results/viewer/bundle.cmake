@@ -1,0 +1,38 @@
+# Bundles the viewer into OUT. Without npm, or when it cannot fetch the libraries, OUT holds an empty script and the
+# reason, and reports are made without their 3-D replay.
+#   cmake -DNPM=<npm or empty> -DSOURCE=<this folder> -DOUT=<folder> -P bundle.cmake
+file(MAKE_DIRECTORY ${OUT})
+set(missing "")
+if(NOT NPM)
+  set(missing "npm was not installed when the program was built")
+else()
+  # The sources are copied, so that a build leaves nothing in the source tree.
+  set(work ${OUT}/work)
+  file(MAKE_DIRECTORY ${work})
+  file(REMOVE_RECURSE ${work}/source)
+  file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json ${SOURCE}/bundle.mjs ${SOURCE}/source DESTINATION ${work})
+  file(SHA256 ${SOURCE}/package-lock.json lock)
+  if(NOT EXISTS ${work}/installed-${lock})
+    execute_process(COMMAND ${NPM} ci --no-audit --no-fund --loglevel=error
+      WORKING_DIRECTORY ${work} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(code EQUAL 0)
+      file(TOUCH ${work}/installed-${lock})
+    else()
+      set(missing "npm could not fetch its libraries when the program was built")
+      message(WARNING "the report's viewer is left out: npm ci failed\n${output}")
+    endif()
+  endif()
+  if(NOT missing)
+    execute_process(COMMAND ${NPM} run --silent bundle -- ${OUT}
+      WORKING_DIRECTORY ${work} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT code EQUAL 0)
+      message(FATAL_ERROR "the report's viewer cannot be bundled\n${output}")
+    endif()
+  endif()
+endif()
+if(missing)
+  foreach(file viewer.js viewer.css viewer.hash licences.txt)
+    file(WRITE ${OUT}/${file} "")
+  endforeach()
+endif()
+file(WRITE ${OUT}/missing.txt "${missing}")

@@ -1,0 +1,122 @@
+// Tangent of the steps of hht.h: how a run changes when the parameters of its model, its drives or its start change.
+//
+// At a converged step every quantity is a function of the unknowns a1, lambda1, of what the step began with, and of
+// the parameters p. With a dash for the derivative along one direction and K, C the derivatives of the forces,
+//
+//   M a1'/(1+al) - K xi1 - C u1 + C_q^T lambda1' = E - al/(1+al) F0' - M' a1/(1+al)        C_q xi1 = -C'
+//   xi1, u1: the derivatives of the update formulas, R1 = R0 exp(turn) => theta1 = exp(-turn) theta0 + J_r(turn) turn'
+//
+// whose matrix is the one of Newton's method (implicit function theorem). It is assembled and factorised anew at the
+// converged state and solved for all directions at once. E holds what does not go through a1: what a changed beginning
+// does to elements with a history (they say so themselves, or central differences of the element alone are taken) and
+// the elements' own parameters and drives: these by central differences between a pair of elements built for
+// p + width/2 and p - width/2, at the same state. That difference is of one force law, not of a run: its error, of
+// second order in the width, is neither amplified by the integration nor blurred by the tolerance of Newton's method.
+// (Serban & Hindmarsh 2005 for the method; Bruls & Eberhard 2008 for multibody systems.)
+//
+// Where a law jumps (case C of a tagline, a touch) the derivative is that of the branch the run took.
+#pragma once
+
+#include <array>
+
+#include "sim/multibody/hht.h"
+
+namespace stillhook {
+
+/// One direction: a parameter p of the model, given by the systems built for p - width/2 and p + width/2 (they must
+/// outlive the tangent), or by no systems: a direction of the initial state alone.
+struct SystemTwin {
+  std::array<const MultibodySystem*, 2> system = {nullptr, nullptr};
+  double width = 1.0;  // in the parameter's unit
+};
+
+/// Derivatives of a state, a column each direction, per unit of its parameter.
+struct StateTangent {
+  BodyChange body;
+  MatrixX acceleration, jerk, F0;  // as SystemState::acceleration and the members of HhtStepper
+  MatrixX lambda;
+  MatrixX element_state;
+};
+
+class HhtTangent {
+ public:
+  /// Throws std::invalid_argument if a twin has other elements, joints or rows than the stepper's system: a change of
+  /// its parameter then changes what the lift is made of.
+  HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins);
+
+  int directions() const { return static_cast<int>(twins_.size()); }
+  const StateTangent& tangent() const { return now_; }
+  const SystemTwin& twin(int j) const { return twins_[j].of; }
+  /// True if the forces of this element of direction j differ from the base's.
+  bool differs(int j, int element) const;
+
+  /// Derivative of the start: `starts` are the twins' initial states, those of one direction after the other. The
+  /// stepper must have been started at `base`.
+  void start(const SystemState& base, std::vector<std::array<SystemState, 2>> starts);
+
+  /// Once before each step of the stepper.
+  void begin(const SystemState& state);
+  /// Once after it, with the state it reached; `drives`: where the twins' drives stand at that instant, and stood
+  /// before the step, [direction][side].
+  using TwinDrives = std::vector<std::array<std::vector<DriveState>, 2>>;
+  void end(SystemState& state, double h, const TwinDrives& drives_before, const TwinDrives& drives);
+
+  /// Largest change of a body, m or rad, of all directions with column j times scale[j].
+  double growth(const VectorX& scale) const;
+
+  /// The state moved along direction j by `by` (in the parameter's unit): bodies, element states and lambda; drives are
+  /// left.
+  void displaced(const SystemState& state, int j, double by, SystemState& out) const;
+  /// A length `by` for displaced() that moves no body by more than this share of a metre or radian.
+  double small_step(int j) const;
+
+ private:
+  struct Twin {
+    SystemTwin of;
+    std::vector<int> elements;  // that differ
+    bool bodies = false, joints = false, mass = false;
+    std::array<std::vector<double>, 2> scratch;  // of all elements; empty if none differs
+  };
+  using SideDrives = std::array<std::vector<DriveState>, 2>;
+
+  static Twin compare(const MultibodySystem& base, const SystemTwin& twin);
+  void follow_mass();
+  void predict(double h);
+  void solve(const SystemState& middle, double h);
+
+  void add_history(double h);
+  void history_by_differences(double h);
+  void add_explicit(double h, const TwinDrives& before, const TwinDrives& now);
+  void add_element(int element, int j, double h, const SideDrives& before, const SideDrives& now);
+  void add_bodies(int j);
+  void advance_states(double h);
+  void states_by_differences(double h);
+  void begin_displaced(int j, double by, double h);
+  double differences_by(int j, const BodyChange& bodies) const;
+
+  HhtStepper& stepper_;
+  const MultibodySystem& system_;
+  std::vector<Twin> twins_;
+  const MatrixX* mass_ = nullptr;  // of phase_
+  int phase_ = 0;
+  double last_h_ = 0.0;  // the stepper's, before the step
+
+  StateTangent now_;
+  BodyChange from_;         // of the bodies at the beginning of the step
+  MatrixX a_start_;         // of the acceleration that the step starts from
+  MatrixX E_;               // forces that do not go through a1
+  MatrixX constraint_;      // C'
+  MatrixX state_explicit_;  // of the elements' states by their own parameters
+  MatrixX rhs_, y_;
+  SystemState before_, middle_, displaced_;
+  std::vector<BodyKinematics> to_;
+  std::vector<double> scratch_;
+  std::vector<int> differenced_;  // elements that do not offer their own tangents
+  VectorX change_;
+  ForceSum forces_;
+};
+
+/// The bodies moved along direction j by `by`.
+void displace_bodies(const BodyChange& change, int j, double by, std::vector<BodyKinematics>& bodies);
+
+}  // namespace stillhook

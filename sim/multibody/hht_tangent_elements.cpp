@@ -1,0 +1,174 @@
+// What the elements' histories, parameters and drives add to the tangent of a step.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/multibody/hht_tangent.h"
+
+namespace stillhook {
+
+namespace {
+constexpr double kSmall = 1e-5;  // m, rad, m/s: displacement for the differences of one element
+}
+
+void displace_bodies(const BodyChange& change, int j, double by, std::vector<BodyKinematics>& bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const int r = 6 * static_cast<int>(i);
+    BodyKinematics& b = bodies[i];
+    b.p_WC += by * change.xi.col(j).segment<3>(r);
+    // exp([phi]x) to the second order: by is small, and this is called very often.
+    const Matrix3 turn = cross_matrix(by * change.xi.col(j).segment<3>(r + 3));
+    b.R_WB += b.R_WB * (turn + 0.5 * turn * turn);
+    b.v_WC += by * change.u.col(j).segment<3>(r);
+    b.w_B += by * change.u.col(j).segment<3>(r + 3);
+  }
+}
+
+void HhtTangent::add_history(double h) {
+  const Instant before = before_.instant(), now = middle_.instant();
+  differenced_.clear();
+  for (std::size_t k = 0; k < system_.elements.size(); ++k) {
+    const ForceElement& element = *system_.elements[k];
+    if (!element.has_history()) continue;
+    const int e = static_cast<int>(k);
+    const Memory m = system_.memory_in(e, middle_.element_state, stepper_.work_.element_scratch);
+    const auto rows = now_.element_state.middleRows(system_.state_offset(e), element.state_size());
+    if (!element.add_history_tangent(before, now, h, m, from_, rows, E_)) differenced_.push_back(e);
+  }
+  if (!differenced_.empty()) history_by_differences(h);
+}
+
+// Moves the beginning of the step along direction j by `by` and lets the elements begin it there.
+void HhtTangent::begin_displaced(int j, double by, double h) {
+  displaced_ = before_;
+  displace_bodies(from_, j, by, displaced_.body);
+  for (const int e : differenced_) {
+    const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
+    for (int k = first; k < first + count; ++k) displaced_.element_state[k] += by * now_.element_state(k, j);
+    system_.elements[e]->begin_step(displaced_.instant(), h,
+                                    system_.memory_in(e, displaced_.element_state, scratch_));
+  }
+}
+
+// How far the differences may go along direction j.
+double HhtTangent::differences_by(int j, const BodyChange& bodies) const {
+  double size = std::max(bodies.xi.col(j).cwiseAbs().maxCoeff(), bodies.u.col(j).cwiseAbs().maxCoeff());
+  for (const int e : differenced_)
+    if (const int states = system_.elements[e]->state_size(); states > 0)
+      size =
+          std::max(size, now_.element_state.col(j).segment(system_.state_offset(e), states).cwiseAbs().maxCoeff());
+  return size > 0.0 && std::isfinite(size) ? kSmall / size : 0.0;
+}
+
+void HhtTangent::history_by_differences(double h) {
+  for (int j = 0; j < directions(); ++j) {
+    const double by = differences_by(j, from_);
+    if (by == 0.0) continue;
+    for (const double sign : {-1.0, 1.0}) {
+      begin_displaced(j, sign * by, h);
+      forces_.clear();
+      for (const int e : differenced_)
+        system_.elements[e]->add_forces(middle_.instant(), h,
+                                        system_.memory_in(e, displaced_.element_state, scratch_), forces_);
+      E_.col(j) += (sign / (2.0 * by)) * forces_.value();
+    }
+  }
+}
+
+void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDrives& now) {
+  for (int j = 0; j < directions(); ++j) {
+    const auto& drives = now[static_cast<std::size_t>(j)];
+    const auto moves = [&](int d) {
+      return drives[0][d].position != drives[1][d].position || drives[0][d].rate != drives[1][d].rate;
+    };
+    for (std::size_t k = 0; k < system_.elements.size(); ++k) {
+      const int e = static_cast<int>(k), d = system_.elements[k]->drive();
+      if (differs(j, e) || (d >= 0 && moves(d))) add_element(e, j, h, before[static_cast<std::size_t>(j)], drives);
+    }
+    if (twins_[j].bodies || twins_[j].joints) add_bodies(j);
+  }
+}
+
+void HhtTangent::add_element(int e, int j, double h, const SideDrives& before,
+                             const SideDrives& now) {
+  Twin& twin = twins_[j];
+  const bool differing = differs(j, e);
+  const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
+  for (int side = 0; side < 2; ++side) {
+    const double sign = (side == 0 ? -1.0 : 1.0) / twin.of.width;
+    const ForceElement& element = differing ? *twin.of.system[side]->elements[e] : *system_.elements[e];
+    displaced_.element_state = before_.element_state;
+    const Memory m = system_.memory_in(e, displaced_.element_state, differing ? twin.scratch[side] : scratch_);
+    const Instant from{before_.t, before_.body, before[side], before_.phase};
+    const Instant to{middle_.t, middle_.body, now[side], middle_.phase};
+    element.begin_step(from, h, m);
+    forces_.clear();
+    element.add_forces(to, h, m, forces_);
+    E_.col(j) += sign * forces_.value();
+    element.end_step(to, h, m);
+    for (int k = first; k < first + count; ++k) state_explicit_(k, j) += sign * displaced_.element_state[k];
+  }
+}
+
+void HhtTangent::add_bodies(int j) {
+  const Twin& twin = twins_[j];
+  VectorX C;
+  MatrixX C_q;
+  for (int side = 0; side < 2; ++side) {
+    const double sign = (side == 0 ? -1.0 : 1.0) / twin.of.width;
+    const MultibodySystem& system = *twin.of.system[side];
+    for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+      const RigidBody& b = system.bodies[i];
+      const Vector3& w = middle_.body[i].w_B;
+      const int r = 6 * static_cast<int>(i);
+      E_(r + 2, j) -= sign * b.mass * system.gravity;
+      E_.col(j).segment<3>(r + 3) -= sign * w.cross(b.inertia * w);
+    }
+    if (!twin.joints) continue;
+    system.constraint_values(middle_, C);
+    system.constraint_jacobian(middle_, C_q);
+    constraint_.col(j) += sign * C;
+    E_.col(j) -= sign * (C_q.transpose() * middle_.lambda);
+  }
+}
+
+void HhtTangent::advance_states(double h) {
+  const Instant before = before_.instant(), now = middle_.instant();
+  differenced_.clear();
+  for (std::size_t k = 0; k < system_.elements.size(); ++k) {
+    const ForceElement& element = *system_.elements[k];
+    if (element.state_size() == 0) continue;
+    const int e = static_cast<int>(k);
+    const Memory m = system_.memory_in(e, middle_.element_state, stepper_.work_.element_scratch);
+    auto rows = now_.element_state.middleRows(system_.state_offset(e), element.state_size());
+    if (!element.advance_state_tangent(before, now, h, m, from_, now_.body, rows)) differenced_.push_back(e);
+  }
+  if (!differenced_.empty()) states_by_differences(h);
+  now_.element_state += state_explicit_;
+}
+
+void HhtTangent::states_by_differences(double h) {
+  for (int j = 0; j < directions(); ++j) {
+    double by = differences_by(j, from_);
+    if (const double now = differences_by(j, now_.body); by == 0.0 || (now > 0.0 && now < by)) by = now;
+    if (by == 0.0) continue;
+    change_.setZero();
+    for (const double sign : {-1.0, 1.0}) {
+      begin_displaced(j, sign * by, h);
+      to_ = middle_.body;
+      displace_bodies(now_.body, j, sign * by, to_);
+      for (const int e : differenced_) {
+        const Memory m = system_.memory_in(e, displaced_.element_state, scratch_);
+        system_.elements[e]->end_step({middle_.t, to_, middle_.drive, middle_.phase}, h, m);
+        const int first = system_.state_offset(e);
+        for (std::size_t k = 0; k < m.state.size(); ++k)
+          change_[first + static_cast<int>(k)] += sign / (2.0 * by) * m.state[k];
+      }
+    }
+    for (const int e : differenced_) {
+      const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
+      now_.element_state.col(j).segment(first, count) = change_.segment(first, count);
+    }
+  }
+}
+
+}  // namespace stillhook
