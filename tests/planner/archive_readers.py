@@ -118,19 +118,19 @@ def check_workbook(folder, header, values):
 def check_killed(folder, case):
     """What a killed run leaves opens as well, is finite as far as it says, and says that it is not complete."""
     child = subprocess.Popen([PROGRAM, "simulate", case, "--out", folder, "--quiet", "--set",
-                              "operation.phases.settle.duration_s=100000", "--set", "solver.output_interval_s=1"])
+                              "operation.phases.settle.duration_s=100000", "--set", "solver.output_interval_s=5"])
     for _ in range(6000):
         if (folder / "history.nc").exists():
             break
         time.sleep(0.005)
-    time.sleep(0.3)
+    time.sleep(1.0)  # some seconds' work is left even on an idle machine, and some is done on a busy one
     child.send_signal(signal.SIGKILL)
     child.wait()
     path = folder / "history.nc"
     with xarray.open_dataset(path, decode_times=False) as data:
         assert data.attrs["status"] == "running"
         count = int(data["samples_written"])
-        assert count > 100
+        assert count >= 20
         with h5py.File(path, "r") as file:
             for variable in data.data_vars.values():
                 if "channel" not in variable.attrs:
