@@ -13,14 +13,16 @@ PreparedRun prepare_run(const Case& c, const Specification& specification, const
 }
 
 RunResult run_lift(const PreparedRun& prepared, const std::vector<LimitSpec>& limits, const std::atomic<bool>* stop,
-                   const std::function<void(double t, double t_end)>& progress) {
+                   const std::function<void(double t, double t_end)>& progress, ArchiveStream* archive) {
   RunOptions options;
   options.progress = [&](double t, double t_end) {
     if (progress) progress(t, t_end);
     return !(stop && stop->load());
   };
-  RunResult result =
-      judged(prepared.model.specification(), simulate(prepared.model, prepared.operation, options), limits);
+  options.sink = archive;
+  Trajectory trajectory = simulate(prepared.model, prepared.operation, options);
+  if (archive) archive->finish(trajectory);
+  RunResult result = judged(prepared.model.specification(), std::move(trajectory), limits);
   result.warnings = prepared.model.warnings();
   return result;
 }

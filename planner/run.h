@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "problems/case.h"
+#include "results/archive_stream.h"
 #include "results/summary.h"
 #include "sim/simulate.h"
 
@@ -36,10 +37,11 @@ struct PreparedRun {
 PreparedRun prepare_run(const Case& c, const Specification& specification, const HydroProgress& progress = {});
 
 /// Simulates and judges. `stop`, when set from outside, interrupts at the next call of `progress` (t and planned end,
-/// s), which may be empty.
+/// s), which may be empty. With an `archive` the samples go there as they are made and stay there; without one the
+/// trajectory holds them.
 RunResult run_lift(const PreparedRun& prepared, const std::vector<LimitSpec>& limits,
                    const std::atomic<bool>* stop = nullptr,
-                   const std::function<void(double t, double t_end)>& progress = {});
+                   const std::function<void(double t, double t_end)>& progress = {}, ArchiveStream* archive = nullptr);
 
 /// Judges a trajectory that was simulated before.
 RunResult judged(const Specification& specification, Trajectory trajectory, const std::vector<LimitSpec>& limits);

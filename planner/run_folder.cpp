@@ -1,5 +1,6 @@
 #include "planner/run_folder.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <vector>
@@ -12,12 +13,21 @@ namespace fs = std::filesystem;
 constexpr std::array kFiles = {"case.toml",
                                "summary.json",
                                "history.nc",
+                               "history.csv",
+                               "history.xlsx",
                                "report.html",
                                "plan.toml",
                                "fitted.toml", "tuned.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
                                "evaluations.sqlite-shm"};
+
+/// What a run that was killed left half written.
+bool is_unfinished(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return std::any_of(kFiles.begin(), kFiles.end(),
+                     [&](const char* of) { return name.starts_with(std::string(of) + ".part-"); });
+}
 
 /// coefficients-<set>.csv and the like.
 bool is_coefficient_file(const fs::path& file) {
@@ -46,7 +56,7 @@ void prepare(const fs::path& path, RunFolder::Mode mode) {
       if (occupied) {
         std::vector<fs::path> former;
         for (const auto& entry : fs::directory_iterator(path))
-          if (is_coefficient_file(entry.path())) former.push_back(entry.path());
+          if (is_coefficient_file(entry.path()) || is_unfinished(entry.path())) former.push_back(entry.path());
         for (const fs::path& file : former) fs::remove(file);
       }
       break;

@@ -37,6 +37,8 @@ class RunFolder {
   std::string tuned() const { return path_ + "/tuned.toml"; }
   std::string fitted() const { return path_ + "/fitted.toml"; }
   std::string store() const { return path_ + "/evaluations.sqlite"; }
+  std::string csv() const { return path_ + "/history.csv"; }    // exports
+  std::string xlsx() const { return path_ + "/history.xlsx"; }
 
  private:
   std::string path_;

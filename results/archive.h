@@ -6,7 +6,8 @@
 // Dimension `operation_phase`: phase_name, phase_stage, phase_start, phase_end, phase_event_timed_out. Dimension
 // `contact_event`: contact_*. Extremes over every step: extreme_min, extreme_max, extreme_time_of_min,
 // extreme_time_of_max (operation_phase, channel). Static poses: static_pose_*. Status and cost: global attributes.
-// Numbers are stored losslessly (float64, shuffle, deflate): what is read back is bit for bit what was written.
+// Numbers are stored losslessly (float64, shuffle, deflate): what is read back is bit for bit what was written, and the
+// same run gives the same file. How the file looks while a run goes on: archive_stream.h.
 #pragma once
 
 #include <string>
@@ -17,16 +18,23 @@ namespace stillhook {
 
 /// What the file says about itself.
 struct ArchiveTitle {
-  std::string title;   // of the case
-  std::string source;  // program and version
-  std::string sea;     // name of the sea state
+  std::string title;         // of the case
+  std::string source;        // program and version
+  std::string sea;           // name of the sea state
+  std::string history = "";  // what was done to get the file
 };
 
-/// Writes a trajectory, whole or not at all: an existing file is replaced only by a complete one. Throws
-/// std::runtime_error that names file and reason. The NetCDF library is not thread-safe: one call at a time.
+/// Writes a trajectory, whole or not at all: an existing file is replaced only by a complete one. Samples come from
+/// where the trajectory has them, one channel at a time. Throws FileError that names file and reason. The NetCDF
+/// library is not thread-safe: one call at a time.
 void write_archive(const Trajectory& trajectory, const ArchiveTitle& title, const std::string& path);
 
-/// Reads a trajectory back. Throws std::runtime_error that names the file and what is missing or wrong in it.
+/// Reads a trajectory back, samples and all. One whose program was killed in mid-run comes back as far as it was on the
+/// disk, as an interrupted run with a message that says so. Throws FileError that names the file and what is missing or
+/// wrong in it.
 Trajectory read_archive(const std::string& path);
+
+/// The same with the samples left in the file: `values` is empty, `source` reads a channel when it is asked for.
+Trajectory open_archive(const std::string& path);
 
 }  // namespace stillhook

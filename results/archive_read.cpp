@@ -1,10 +1,14 @@
-#include <algorithm>
-#include <filesystem>
-#include <stdexcept>
+#include <fmt/core.h>
 
-#include "results/archive.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "results/archive_layout.h"
+#include "results/files.h"
 #include "results/netcdf_file.h"
 #include "results/summary.h"
+#include "sim/samples.h"
 
 namespace stillhook {
 namespace {
@@ -12,28 +16,45 @@ namespace {
 RunStatus status_from(const std::string& name, const std::string& path) {
   for (RunStatus s : {RunStatus::not_run, RunStatus::completed, RunStatus::interrupted, RunStatus::diverged})
     if (status_name(s) == name) return s;
-  throw std::runtime_error(path + ": unknown status \"" + name + "\"");
+  throw FileError(path + ": unknown status \"" + name + "\"");
 }
 
-void read_channels(const NetcdfFile& file, Trajectory& run) {
-  const std::size_t count = file.size("channel"), samples = file.size("time");
+/// The samples of an archive, read when they are asked for.
+class FileSamples : public SampleSource {
+ public:
+  FileSamples(std::shared_ptr<const NetcdfFile> file, const std::vector<Channel>& channels, std::size_t count)
+      : file_(std::move(file)), count_(count) {
+    // Channels find their variable by the attribute, whatever the variable had to be called.
+    std::map<std::string, int> variable_of;
+    int variables = 0;
+    file_->check(nc_inq_nvars(file_->id(), &variables), "cannot be read");
+    for (int v = 0; v < variables; ++v)
+      if (nc_inq_attid(file_->id(), v, "channel", nullptr) == NC_NOERR) variable_of[file_->text(v, "channel")] = v;
+    for (const Channel& channel : channels) {
+      const auto found = variable_of.find(channel.name);
+      if (found == variable_of.end()) file_->check(NC_ENOTVAR, "holds no samples of channel " + channel.name);
+      variables_.push_back(found->second);
+    }
+  }
+  std::vector<double> series(std::size_t channel) const override {
+    return file_->first_doubles(variables_[channel], count_);
+  }
+
+ private:
+  std::shared_ptr<const NetcdfFile> file_;
+  std::size_t count_;
+  std::vector<int> variables_;
+};
+
+void read_channels(const std::shared_ptr<const NetcdfFile>& file, Trajectory& run, std::size_t samples) {
+  const std::size_t count = file->size("channel");
   if (count == 0) return;
-  const auto names = file.strings("channel_name", count), units = file.strings("channel_unit", count),
-             descriptions = file.strings("channel_description", count);
+  const auto names = file->strings("channel_name", count), units = file->strings("channel_unit", count),
+             descriptions = file->strings("channel_description", count);
   for (std::size_t c = 0; c < count; ++c) run.channels.push_back({names[c], units[c], descriptions[c]});
   if (samples == 0) return;
-  run.time = file.doubles("time", samples);
-
-  // Channels find their variable by the attribute, whatever the variable had to be called.
-  std::map<std::string, std::string> variable_of;
-  int variables = 0;
-  file.check(nc_inq_nvars(file.id(), &variables), "cannot be read");
-  for (int v = 0; v < variables; ++v) {
-    char name[NC_MAX_NAME + 1] = {};
-    file.check(nc_inq_varname(file.id(), v, name), "cannot be read");
-    if (nc_inq_attid(file.id(), v, "channel", nullptr) == NC_NOERR) variable_of[file.text(v, "channel")] = name;
-  }
-  for (const std::string& name : names) run.values.push_back(file.doubles(variable_of[name], samples));
+  run.time = file->first_doubles(file->find("time"), samples);
+  run.source = std::make_shared<FileSamples>(file, run.channels, samples);
 }
 
 void read_phases(const NetcdfFile& file, Trajectory& run) {
@@ -45,8 +66,7 @@ void read_phases(const NetcdfFile& file, Trajectory& run) {
   for (std::size_t p = 0; p < count; ++p)
     run.phases.push_back(
         {names[p], static_cast<PhaseSpec::Stage>(std::clamp(stages[p], 0, 4)), starts[p], ends[p], timeouts[p] != 0});
-  int variable = -1;
-  if (channels == 0 || nc_inq_varid(file.id(), "extreme_min", &variable) != NC_NOERR) return;
+  if (channels == 0 || !file.has("extreme_min")) return;
   const auto min = file.doubles("extreme_min", count * channels), max = file.doubles("extreme_max", count * channels),
              t_min = file.doubles("extreme_time_of_min", count * channels),
              t_max = file.doubles("extreme_time_of_max", count * channels);
@@ -70,6 +90,54 @@ void read_contacts(const NetcdfFile& file, Trajectory& run) {
     run.contacts.push_back({names[i], static_cast<ContactSpec::Role>(std::clamp(roles[i], 0, 2)), starts[i], ends[i],
                             Vector3(places[3 * i], places[3 * i + 1], places[3 * i + 2]), speeds[i], forces[i],
                             impulses[i], phases[i]});
+}
+
+// ---- what a run leaves that was killed ---------------------------------------------------------------------------
+
+int single(const NetcdfFile& file, const char* variable) { return file.integers(variable, 1).front(); }
+
+std::size_t written_samples(const NetcdfFile& file) {
+  return static_cast<std::size_t>(std::max(0, single(file, "samples_written")));
+}
+
+void read_contacts_so_far(const NetcdfFile& file, Trajectory& run) {
+  const std::size_t room = file.size("contact_event");
+  const std::size_t count = std::min(room, static_cast<std::size_t>(std::max(0, single(file, "contact_event_count"))));
+  const auto channels = file.integers("contact_event_channel", room),
+             phases = file.integers("contact_event_phase_index", room),
+             roles = file.integers("contact_event_role", room);
+  const auto places = file.doubles(archive::kContactPlace, 3 * room);
+  std::vector<std::vector<double>> fields;
+  for (const auto& field : archive::kContactFields) fields.push_back(file.doubles(field.name, room));
+  const auto entry = [](const auto& entries, int index) {
+    return index >= 0 && static_cast<std::size_t>(index) < entries.size()
+               ? entries[static_cast<std::size_t>(index)].name
+               : std::string();
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    ContactEvent event;
+    event.contact = entry(run.channels, channels[i]);
+    event.contact.resize(event.contact.rfind('.') == std::string::npos ? 0 : event.contact.rfind('.'));
+    event.phase = entry(run.phases, phases[i]);
+    event.role = static_cast<ContactSpec::Role>(std::clamp(roles[i], 0, 2));
+    event.place = Vector3(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+    for (std::size_t k = 0; k < fields.size(); ++k) event.*archive::kContactFields[k].value = fields[k][i];
+    run.contacts.push_back(event);
+  }
+}
+
+void read_running(const NetcdfFile& file, Trajectory& run) {
+  run.status = RunStatus::interrupted;
+  run.message = run.time.empty() ? "incomplete: the program ended before anything was recorded"
+                                 : fmt::format("incomplete: the program ended in mid-run; recorded until t = {:g} s",
+                                               run.time.back());
+  read_phases(file, run);
+  // Phases that had not begun have no times.
+  std::size_t begun = 0;
+  while (begun < run.phases.size() && std::isfinite(run.phases[begun].start)) ++begun;
+  run.phases.resize(begun);
+  run.extremes.resize(std::min(begun, run.extremes.size()));
+  read_contacts_so_far(file, run);
 }
 
 void read_pose_bodies(const NetcdfFile& file, Trajectory& run, const std::vector<int>& body_counts) {
@@ -111,21 +179,33 @@ void read_static_poses(const NetcdfFile& file, Trajectory& run) {
 
 }  // namespace
 
-Trajectory read_archive(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw std::runtime_error(path + ": cannot be read: there is no such file");
-  const NetcdfFile file(path, NetcdfFile::Mode::read, path);
+Trajectory open_archive(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(path + ": cannot be read: there is no such file");
+  const auto file = std::make_shared<const NetcdfFile>(path, NetcdfFile::Mode::read, path);
   Trajectory run;
-  run.status = status_from(file.text(NC_GLOBAL, "status"), path);
-  run.message = file.text(NC_GLOBAL, "message");
-  run.steps = static_cast<long>(file.number(NC_GLOBAL, "steps"));
-  run.residuals = static_cast<long>(file.number(NC_GLOBAL, "residuals"));
-  run.factorisations = static_cast<long>(file.number(NC_GLOBAL, "factorisations"));
-  run.wall = file.number(NC_GLOBAL, "wall_s");
-  read_channels(file, run);
-  read_phases(file, run);
-  read_contacts(file, run);
-  read_static_poses(file, run);
+  const std::string status = file->text(NC_GLOBAL, "status");
+  const bool running = status == archive::kRunning;
+  read_channels(file, run, running ? written_samples(*file) : file->size("time"));
+  if (running) {
+    read_running(*file, run);
+  } else {
+    run.status = status_from(status, path);
+    run.message = file->text(NC_GLOBAL, "message");
+    run.steps = static_cast<long>(file->number(NC_GLOBAL, "steps"));
+    run.residuals = static_cast<long>(file->number(NC_GLOBAL, "residuals"));
+    run.factorisations = static_cast<long>(file->number(NC_GLOBAL, "factorisations"));
+    read_phases(*file, run);
+    read_contacts(*file, run);
+  }
+  read_static_poses(*file, run);
+  return run;
+}
+
+Trajectory read_archive(const std::string& path) {
+  Trajectory run = open_archive(path);
+  if (!run.source) return run;
+  for (std::size_t c = 0; c < run.channels.size(); ++c) run.values.push_back(run.source->series(c));
+  run.source.reset();
   return run;
 }
 

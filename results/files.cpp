@@ -8,13 +8,12 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 
 namespace stillhook {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const char* what, int error) {
-  throw std::runtime_error(fmt::format("{}: {}: {}", path, what, std::strerror(error)));
+  throw FileError(fmt::format("{}: {}: {}", path, what, std::strerror(error)));
 }
 
 /// Closes the descriptor at the end of the scope.
@@ -33,7 +32,7 @@ PendingFile::PendingFile(std::string path)
   if (folder.empty()) folder = ".";
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
-    throw std::runtime_error(fmt::format("{}: cannot be written: folder {} does not exist", path_, folder.string()));
+    throw FileError(fmt::format("{}: cannot be written: folder {} does not exist", path_, folder.string()));
   if (::access(folder.c_str(), W_OK) != 0) fail(path_, "cannot be written", errno);
 }
 
@@ -41,13 +40,14 @@ PendingFile::~PendingFile() {
   if (!done_) std::remove(temporary_.c_str());
 }
 
-void PendingFile::commit() {
-  {
+void PendingFile::commit(Flush flush) {
+  if (flush == Flush::yes) {
     const Descriptor file{::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC)};
     if (file.fd < 0 || ::fsync(file.fd) != 0) fail(path_, "cannot be written", errno);
   }
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot be put in place", errno);
   done_ = true;
+  if (flush == Flush::no) return;
   // The new name itself survives a power cut only when the folder is flushed too; some file systems refuse that,
   // and then the file is complete all the same.
   std::filesystem::path folder = std::filesystem::path(path_).parent_path();

@@ -192,16 +192,12 @@ Metrics compute_metrics(const Specification& specification, const Trajectory& tr
   list.add("event_timeouts",
            static_cast<double>(std::count_if(trajectory.phases.begin(), trajectory.phases.end(),
                                              [](const PhaseRecord& p) { return p.event_timed_out; })));
-  add_load_motion(view, list);
-  add_sway(view, list);
-  add_wires(view, list);
-  add_winches(view, list);
-  add_taglines(view, list);
-  add_moorings(view, list);
-  add_contacts(view, list);
-  add_lift_off(view, list);
-  add_set_down_motion(view, list);
-  add_crane_motion(view, list);
+  // One after the other, so that of a long run only the samples of one are in memory.
+  for (const auto add : {add_load_motion, add_sway, add_wires, add_winches, add_taglines, add_moorings, add_contacts,
+                         add_lift_off, add_set_down_motion, add_crane_motion}) {
+    add(view, list);
+    view.forget();
+  }
   for (const ClearanceSeries& clearance : compute_clearances(specification, trajectory))
     list.add("clearance_min.%", clearance.name, {clearance.minimum, clearance.minimum_time});
   return metrics;

@@ -1,10 +1,26 @@
 #include "results/netcdf_file.h"
 
-#include <stdexcept>
+#include <hdf5.h>
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+
+#include "results/files.h"
 
 namespace stillhook {
+namespace {
+
+constexpr std::size_t kCacheBytes = 65536, kCacheSlots = 101;  // per variable
+
+}  // namespace
 
 NetcdfFile::NetcdfFile(const std::string& path, Mode mode, std::string shown) : shown_(std::move(shown)) {
+  // At the end of the program HDF5 closes what is open; a file that could not be closed, on a full disk, makes it crash
+  // there. Every file is closed by its owner.
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  // Channels are written and read whole, once: a cache would only keep all of them in memory until the file is closed.
+  nc_set_chunk_cache(kCacheBytes, kCacheSlots, 0.75f);
   if (mode == Mode::create)
     check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), "cannot be written");
   else
@@ -16,8 +32,16 @@ NetcdfFile::~NetcdfFile() {
 }
 
 void NetcdfFile::check(int code, const std::string& what) const {
-  if (code != NC_NOERR) throw std::runtime_error(shown_ + ": " + what + ": " + nc_strerror(code));
+  if (code == NC_NOERR) return;
+  const int system = errno;
+  std::string reason = nc_strerror(code);
+  // HDF5 does not pass on why the system refused a write; errno still knows.
+  for (const int known : {ENOSPC, EFBIG, EDQUOT, EIO, EROFS})
+    if (code == NC_EHDFERR && system == known) reason = std::strerror(system);
+  throw FileError(shown_ + ": " + what + ": " + reason);
 }
+
+void NetcdfFile::sync() { check(nc_sync(id_), "cannot be written"); }
 
 void NetcdfFile::close() {
   const int code = nc_close(id_);
@@ -31,14 +55,31 @@ int NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
   return dimension;
 }
 
-int NetcdfFile::define(const std::string& name, nc_type type, const std::vector<int>& dimensions) {
+int NetcdfFile::dimension(const std::string& name) const {
+  int id = -1;
+  check(nc_inq_dimid(id_, name.c_str(), &id), "dimension " + name);
+  return id;
+}
+
+int NetcdfFile::define(const std::string& name, nc_type type, const std::vector<int>& dimensions,
+                       const std::string& long_name, const std::string& units, Storage storage) {
   int variable = -1;
   check(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &variable),
         "variable " + name);
+  lay_out(variable, type, storage);
+  attribute(variable, "long_name", long_name);
+  if (!units.empty()) attribute(variable, "units", units);
   return variable;
 }
 
-void NetcdfFile::compress(int variable) { check(nc_def_var_deflate(id_, variable, 1, 1, 2), "compression"); }
+void NetcdfFile::lay_out(int variable, nc_type type, Storage storage) {
+  if (storage == Storage::compressed) check(nc_def_var_deflate(id_, variable, 1, 1, 2), "compression");
+  if (storage != Storage::whole) return;
+  check(nc_def_var_chunking(id_, variable, NC_CONTIGUOUS, nullptr), "layout");
+  if (type != NC_DOUBLE) return;
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  check(nc_def_var_fill(id_, variable, NC_FILL, &nothing), "layout");
+}
 
 void NetcdfFile::attribute(int variable, const std::string& name, const std::string& text) {
   check(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.c_str()), "attribute " + name);
@@ -46,6 +87,10 @@ void NetcdfFile::attribute(int variable, const std::string& name, const std::str
 
 void NetcdfFile::attribute(int variable, const std::string& name, double value) {
   check(nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, &value), "attribute " + name);
+}
+
+void NetcdfFile::attribute(int variable, const std::string& name, const std::vector<int>& values) {
+  check(nc_put_att_int(id_, variable, name.c_str(), NC_INT, values.size(), values.data()), "attribute " + name);
 }
 
 void NetcdfFile::put(int variable, const std::vector<double>& values) {
@@ -62,12 +107,37 @@ void NetcdfFile::put(int variable, const std::vector<std::string>& values) {
   check(nc_put_var_string(id_, variable, pointers.data()), "cannot be written");
 }
 
+void NetcdfFile::rows(int variable, std::size_t first, std::size_t count, std::vector<std::size_t>& start,
+                      std::vector<std::size_t>& counts) const {
+  counts = shape(variable, "of rows");
+  start.assign(counts.size(), 0);
+  start.front() = first;
+  counts.front() = count;
+}
+
+void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t count, const double* values) {
+  std::vector<std::size_t> start, counts;
+  rows(variable, first, count, start, counts);
+  check(nc_put_vara_double(id_, variable, start.data(), counts.data(), values), "cannot be written");
+}
+
+void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t count, const int* values) {
+  std::vector<std::size_t> start, counts;
+  rows(variable, first, count, start, counts);
+  check(nc_put_vara_int(id_, variable, start.data(), counts.data(), values), "cannot be written");
+}
+
 std::size_t NetcdfFile::size(const std::string& dimension) const {
   int id = -1;
   std::size_t size = 0;
   if (nc_inq_dimid(id_, dimension.c_str(), &id) != NC_NOERR) return 0;
   check(nc_inq_dimlen(id_, id, &size), "dimension " + dimension);
   return size;
+}
+
+bool NetcdfFile::has(const std::string& variable) const {
+  int id = -1;
+  return nc_inq_varid(id_, variable.c_str(), &id) == NC_NOERR;
 }
 
 int NetcdfFile::find(const std::string& variable) const {
@@ -98,17 +168,19 @@ double NetcdfFile::number(int variable, const std::string& name) const {
   return value;
 }
 
-void NetcdfFile::check_count(int variable, const std::string& name, std::size_t count) const {
+std::vector<std::size_t> NetcdfFile::shape(int variable, const std::string& name) const {
   int rank = 0;
   check(nc_inq_varndims(id_, variable, &rank), name);
   std::vector<int> dimensions(static_cast<std::size_t>(rank));
   check(nc_inq_vardimid(id_, variable, dimensions.data()), name);
+  std::vector<std::size_t> lengths;
+  for (int d : dimensions) check(nc_inq_dimlen(id_, d, &lengths.emplace_back()), name);
+  return lengths;
+}
+
+void NetcdfFile::check_count(int variable, const std::string& name, std::size_t count) const {
   std::size_t total = 1;
-  for (int d : dimensions) {
-    std::size_t length = 0;
-    check(nc_inq_dimlen(id_, d, &length), name);
-    total *= length;
-  }
+  for (const std::size_t length : shape(variable, name)) total *= length;
   if (total != count) check(NC_EEDGE, "variable " + name + " has another size than expected");
 }
 
@@ -117,6 +189,16 @@ std::vector<double> NetcdfFile::doubles(const std::string& variable, std::size_t
   const int id = find(variable);
   check_count(id, variable, count);
   check(nc_get_var_double(id_, id, values.data()), "variable " + variable);
+  return values;
+}
+
+std::vector<double> NetcdfFile::first_doubles(int variable, std::size_t count) const {
+  std::vector<double> values(count);
+  if (count == 0) return values;
+  const std::vector<std::size_t> lengths = shape(variable, "of samples");
+  if (lengths.size() != 1 || lengths[0] < count) check(NC_EEDGE, "holds fewer samples than it says");
+  const std::size_t start = 0;
+  check(nc_get_vara_double(id_, variable, &start, &count, values.data()), "cannot be read");
   return values;
 }
 

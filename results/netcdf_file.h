@@ -1,5 +1,5 @@
 // A thin, checked hold on the NetCDF C API: opens, closes, and turns every error code into a sentence. Used by
-// archive*.cpp.
+// archive*.cpp. The NetCDF library is not thread-safe: one call at a time, over all files.
 #pragma once
 
 #include <netcdf.h>
@@ -19,31 +19,52 @@ class NetcdfFile {
   NetcdfFile& operator=(const NetcdfFile&) = delete;
 
   int id() const { return id_; }
-  /// Throws std::runtime_error "<file>: <what>: <NetCDF's reason>" if `code` is an error.
+  /// Throws FileError "<file>: <what>: <NetCDF's reason>" if `code` is an error.
   void check(int code, const std::string& what) const;
+  /// Hands everything to the operating system: what is there then survives the end of the process, however it ends.
+  void sync();
   void close();  // reports the errors that a destructor would swallow
 
   // Writing.
   int define_dimension(const std::string& name, std::size_t size);
-  int define(const std::string& name, nc_type type, const std::vector<int>& dimensions);
-  void compress(int variable);
+  int dimension(const std::string& name) const;  // of one that is defined
+  enum class Storage {
+    plain,
+    compressed,
+    whole  // at its final place in the file from the start, NaN until written: writing changes nothing else in the file
+  };
+  /// CF wants a long name for every variable; `units` is "" where there can be none (text, flags, mixed units).
+  int define(const std::string& name, nc_type type, const std::vector<int>& dimensions, const std::string& long_name,
+             const std::string& units = "", Storage storage = Storage::plain);
   void attribute(int variable, const std::string& name, const std::string& text);
   void attribute(int variable, const std::string& name, double value);
+  void attribute(int variable, const std::string& name, const std::vector<int>& values);
   void put(int variable, const std::vector<double>& values);
   void put(int variable, const std::vector<int>& values);
   void put(int variable, const std::vector<std::string>& values);
+  /// `count` rows of a variable from row `first` on.
+  void put_rows(int variable, std::size_t first, std::size_t count, const double* values);
+  void put_rows(int variable, std::size_t first, std::size_t count, const int* values);
 
   // Reading. A missing dimension has size 0.
   std::size_t size(const std::string& dimension) const;
+  bool has(const std::string& variable) const;
   int find(const std::string& variable) const;  // throws if it is not there
   std::string text(int variable, const std::string& name) const;
   double number(int variable, const std::string& name) const;
   std::vector<double> doubles(const std::string& variable, std::size_t count) const;
   std::vector<int> integers(const std::string& variable, std::size_t count) const;
   std::vector<std::string> strings(const std::string& variable, std::size_t count) const;
+  /// The first `count` of a variable with one dimension.
+  std::vector<double> first_doubles(int variable, std::size_t count) const;
 
  private:
+  std::vector<std::size_t> shape(int variable, const std::string& name) const;
+  void lay_out(int variable, nc_type type, Storage storage);
   void check_count(int variable, const std::string& name, std::size_t count) const;
+  /// Start and count of whole rows, in NetCDF's terms.
+  void rows(int variable, std::size_t first, std::size_t count, std::vector<std::size_t>& start,
+            std::vector<std::size_t>& counts) const;
   std::string shown_;
   int id_ = -1;
 };

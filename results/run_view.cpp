@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/samples.h"
+
 namespace stillhook {
 namespace {
 
@@ -40,7 +42,11 @@ RunView::RunView(const Specification& specification, const Trajectory& trajector
       if (!position.empty()) moving_[p].push_back({position, from[d], to[d]});
     }
   }
+  kept_ = std::move(read_);  // the drives' positions; moved as a whole, so that the spans stay
+  read_.clear();
 }
+
+void RunView::forget() const { read_.clear(); }
 
 int RunView::channel(const std::string& name) const {
   const auto found = index_.find(name);
@@ -49,10 +55,15 @@ int RunView::channel(const std::string& name) const {
 
 std::span<const double> RunView::series(const std::string& name) const {
   const int c = channel(name);
-  if (c < 0 || static_cast<std::size_t>(c) >= run_.values.size()) return {};
-  const std::vector<double>& values = run_.values[static_cast<std::size_t>(c)];
-  if (values.size() != run_.time.size()) return {};
-  return values;
+  if (c < 0) return {};
+  const std::size_t k = static_cast<std::size_t>(c);
+  const bool held = k < run_.values.size() && run_.values[k].size() == run_.time.size();
+  if (held) return run_.values[k];
+  if (!run_.source) return {};
+  if (const auto kept = kept_.find(c); kept != kept_.end()) return kept->second;
+  const auto [found, added] = read_.try_emplace(c);
+  if (added) found->second = run_.source->series(k);
+  return found->second;
 }
 
 std::vector<std::size_t> RunView::phases_of(std::initializer_list<Stage> stages) const {

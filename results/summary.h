@@ -69,7 +69,11 @@ Summary summarise(const Specification& specification, const Trajectory& trajecto
 /// and infinities become null.
 std::string summary_json(const Summary& summary);
 
-/// Writes summary_json() to a file, whole or not at all. Throws std::runtime_error.
+/// Reads a file that write_summary() has written: what concerns the run, that is everything but objective, search,
+/// variables and estimates. null becomes NaN. Throws FileError that names the file and what is missing or wrong in it.
+Summary read_summary(const std::string& path);
+
+/// Writes summary_json() to a file, whole or not at all. Throws FileError.
 void write_summary(const Summary& summary, const std::string& path);
 
 }  // namespace stillhook

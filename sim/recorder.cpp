@@ -127,10 +127,10 @@ void ChannelBoard::measure(SystemState& state, SystemWorkspace& work, int phase)
   values_[rest_offset_ + 1] = phase;
 }
 
-Recorder::Recorder(const Model& model, const ChannelBoard& board, bool samples, Trajectory& out)
-    : board_(board), samples_(samples), out_(out) {
+Recorder::Recorder(const Model& model, const ChannelBoard& board, bool samples, Trajectory& out, SampleSink* sink)
+    : board_(board), samples_(samples), out_(out), sink_(sink) {
   out.channels = board.channels();
-  out.values.resize(board.channels().size());
+  if (!sink) out.values.resize(board.channels().size());
   const auto& elements = model.system().elements;
   for (const ContactSpec& spec : model.specification().contacts) {
     Watch w;
@@ -172,6 +172,7 @@ void Recorder::add(double t, double h, int phase, bool sample) {
   }
   watch_contacts(t, h, phase);
   if (!samples_ || !sample) return;
+  if (sink_) return sink_->add(out_, t, values);
   out_.time.push_back(t);
   for (std::size_t i = 0; i < values.size(); ++i) out_.values[i].push_back(values[i]);
 }

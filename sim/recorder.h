@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/model.h"
+#include "sim/samples.h"
 #include "sim/trajectory.h"
 
 namespace stillhook {
@@ -38,7 +39,8 @@ class ChannelBoard {
 /// Turns the board's values into a trajectory.
 class Recorder {
  public:
-  Recorder(const Model& model, const ChannelBoard& board, bool samples, Trajectory& out);
+  /// `samples`: keep them; they go to `sink` if there is one, else into the trajectory.
+  Recorder(const Model& model, const ChannelBoard& board, bool samples, Trajectory& out, SampleSink* sink = nullptr);
   /// Once per step, after board.measure(). `sample`: keep the values.
   void add(double t, double h, int phase, bool sample);
   /// Phase bookkeeping.
@@ -64,6 +66,7 @@ class Recorder {
   const ChannelBoard& board_;
   bool samples_;
   Trajectory& out_;
+  SampleSink* sink_;
   std::vector<Watch> watches_;
 };
 

@@ -12,9 +12,10 @@
 namespace stillhook {
 namespace {
 
-constexpr int kHalvings = 8;            // of a step that does not converge
-constexpr double kProgressEvery = 5.0;  // s, simulated
-constexpr double kLost = 1e5;           // m from the origin: no longer a lift
+constexpr int kHalvings = 8;              // of a step that does not converge
+constexpr double kProgressEvery = 5.0;    // s, simulated
+constexpr const char* kWholeRun = "run";  // the phase of a run without an operation
+constexpr double kLost = 1e5;             // m from the origin: no longer a lift
 
 // One run; its parts share the state.
 class Run {
@@ -26,7 +27,8 @@ class Run {
         state_(options.from ? *options.from : model.initial_state()),
         stepper_(model.system(), hht_options(model.specification().solver)),
         board_(model),
-        recorder_(model, board_, options.record, out),
+        recorder_(model, board_, options.record, out, options.sink),
+        operation_(operation),
         clock_(operation, static_cast<int>(model.specification().drives.size())),
         drives_(model.specification().drives.size()) {}
 
@@ -38,10 +40,11 @@ class Run {
     const SolverSpec& solver = model_.specification().solver;
     const double h = solver.time_step, begin = state_.t;
     const long every = std::max(1L, std::lround(solver.output_interval / h));
+    if (options_.sink) options_.sink->open(out_, forecast(every * h));
     stepper_.start(state_);
     if (tangents_) tangents_->start(state_);
     advance_clock(begin);
-    if (clock_.phase() < 0) recorder_.open_phase("run", PhaseSpec::Stage::hanging, begin, false);
+    if (clock_.phase() < 0) recorder_.open_phase(kWholeRun, PhaseSpec::Stage::hanging, begin, false);
     note(h, true);
     double next_progress = begin + kProgressEvery;
     for (long k = 1;; ++k) {
@@ -78,12 +81,30 @@ class Run {
 
   int phase() const { return std::max(0, clock_.phase()); }
 
+  SampleForecast forecast(double interval) const {
+    SampleForecast f;
+    f.begin = state_.t;
+    f.interval = interval;
+    f.expected = 1 + static_cast<std::size_t>(std::max(0.0, planned_end() - f.begin) / interval);
+    for (const Phase& p : operation_.phases) f.phases.push_back({p.name, p.stage});
+    if (f.phases.empty()) f.phases.push_back({kWholeRun, PhaseSpec::Stage::hanging});
+    return f;
+  }
+
+  double planned_end() const {
+    const double limit = time_limit();
+    if (operation_.phases.empty()) return limit;
+    return limit > 0.0 ? std::min(limit, operation_.planned_duration()) : operation_.planned_duration();
+  }
+
   void advance_clock(double t) {
     clock_.advance(t, recorder_);
     if (tangents_) tangents_->follow(clock_);
   }
 
-  double time_limit() const { return options_.until > 0.0 ? options_.until : model_.specification().solver.max_duration; }
+  double time_limit() const {
+    return options_.until > 0.0 ? options_.until : model_.specification().solver.max_duration;
+  }
 
   bool done(double t) const {
     const double limit = time_limit();
@@ -150,6 +171,7 @@ class Run {
   HhtStepper stepper_;
   ChannelBoard board_;
   Recorder recorder_;
+  const Operation& operation_;
   OperationClock clock_;
   std::vector<DriveState> drives_;
   TangentPass* tangents_ = nullptr;

@@ -5,6 +5,7 @@
 
 #include "sim/model.h"
 #include "sim/operation.h"
+#include "sim/samples.h"
 #include "sim/trajectory.h"
 
 namespace stillhook {
@@ -14,6 +15,8 @@ struct RunOptions {
   std::function<bool(double t, double t_end)> progress;
   /// Keep samples (values) at specification.solver.output_interval; extremes and contacts are kept always.
   bool record = true;
+  /// Takes the samples instead of the trajectory, whose `time` and `values` then stay empty.
+  SampleSink* sink = nullptr;
   /// Where the run begins instead of the model's initial state, at its time; must outlive the run.
   const SystemState* from = nullptr;
   double until = 0.0;  // s, the run ends there at the latest; 0 = as the specification says

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "sim/specification.h"
 
 namespace stillhook {
+
+class SampleSource;  // sim/samples.h
 
 /// A phase as it ran.
 struct PhaseRecord {
@@ -52,7 +55,8 @@ struct Trajectory {
 
   std::vector<Channel> channels;            // names like "load.x", "load.roll", "hoist_port.tension", "hoist.rate"
   std::vector<double> time;                 // s
-  std::vector<std::vector<double>> values;  // [channel][sample]
+  std::vector<std::vector<double>> values;  // [channel][sample], or empty: then `source` has them
+  std::shared_ptr<const SampleSource> source;
   std::vector<std::vector<Extreme>> extremes;  // [phase][channel]
 
   std::vector<PhaseRecord> phases;

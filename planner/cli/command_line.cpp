@@ -4,30 +4,34 @@
 #include <omp.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
-#include <cstdlib>
 #include <functional>
 
+#include "planner/cli/colour.h"
+#include "planner/cli/command_tree.h"
 #include "planner/cli/commands.h"
 #include "planner/cli/hydro_progress.h"
 #include "planner/version.h"
 #include "problems/search/store.h"
+#include "results/files.h"
 
 namespace stillhook {
 namespace {
 
-void set_up_messages(bool quiet) {
-  // https://no-color.org: any value but the empty one
-  const char* no_color = std::getenv("NO_COLOR");
-  const auto mode = no_color && *no_color ? spdlog::color_mode::never : spdlog::color_mode::automatic;
+void set_up_messages(bool quiet, ColourWish wish) {
+  const auto mode = wants_colour(wish, STDERR_FILENO) ? spdlog::color_mode::always : spdlog::color_mode::never;
   auto logger =
       std::make_shared<spdlog::logger>("stillhook", std::make_shared<spdlog::sinks::stderr_color_sink_mt>(mode));
   logger->set_pattern("%^%l%$: %v");
   logger->set_level(quiet ? spdlog::level::err : spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
+
+/// Without the list of words in the help: the operand's name says it already.
+CLI::Validator one_of(std::vector<std::string> words) { return CLI::IsMember(std::move(words)).description(""); }
 
 /// The parsed command line: options and the verb to run.
 struct Request {
@@ -37,13 +41,24 @@ struct Request {
   FitArguments fit;
   TuneArguments tune;
   int threads = 0;
-  bool reference = false;  // schema: the key reference instead
+  SchemaArguments schema;
+  ExportArguments exports;
+  std::string shell;  // completion
+  std::string colour = "auto";
   std::function<int()> verb;
 };
+
+void add_colour_option(CLI::App& verb, Request& r) {
+  verb.add_option("--color", r.colour,
+                  "Colours: on a terminal (auto, the default, unless NO_COLOR is set), always, never")
+      ->type_name("auto|always|never")
+      ->check(one_of({"auto", "always", "never"}));
+}
 
 void add_output_options(CLI::App& verb, Request& r) {
   verb.add_flag("--json", r.common.json, "Print the summary as JSON on stdout");
   verb.add_flag("--quiet", r.common.quiet, "No progress and no messages but errors");
+  add_colour_option(verb, r);
 }
 
 void add_case_options(CLI::App& verb, Request& r) {
@@ -66,6 +81,57 @@ void add_folder_options(CLI::App& verb, Request& r) {
 void add_run_options(CLI::App& verb, Request& r, const char* seed_help) {
   add_folder_options(verb, r);
   verb.add_option("--seed", r.common.seed, seed_help)->type_name("N")->check(CLI::Range(0, 2147483647));
+}
+
+void add_export(CLI::App& app, Request& r) {
+  CLI::App* verb = app.add_subcommand("export", "Write a run's history for other programs: CSV, or an Excel workbook");
+  verb->add_option("RUN_DIR", r.common.input, "Folder that simulate or plan has written")->required();
+  CLI::Option* csv = verb->add_flag("--csv", r.exports.csv, "Comma-separated values, units in the header, every digit");
+  CLI::Option* xlsx =
+      verb->add_flag("--xlsx", r.exports.xlsx, "Excel workbook: sheets history, metrics, limits, contacts");
+  xlsx->excludes(csv);
+  verb->add_option("--out", r.common.out,
+                   "File to write (default history.csv or history.xlsx in the run's folder; - for stdout, CSV only)")
+      ->type_name("FILE");
+  verb->add_option("--channels", r.exports.channels,
+                   "Only these channels, e.g. load.*,hoist_port.tension; * and ? stand for anything")
+      ->type_name("NAMES")
+      ->delimiter(',');
+  verb->add_flag("--force", r.common.force, "Replace the file if it exists");
+  verb->add_flag("--quiet", r.common.quiet, "No messages but errors");
+  add_colour_option(*verb, r);
+  verb->callback([&r] { r.verb = [&r] { return run_export(r.common, r.exports); }; });
+}
+
+/// What the program says about itself.
+void add_help_verbs(CLI::App& app, Request& r) {
+  CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
+  schema->add_flag("--reference", r.schema.reference, "Print the key reference (Markdown) instead");
+  schema->add_flag("--metrics", r.schema.metrics, "Print the list of metrics (Markdown) instead");
+  schema->callback([&r] { r.verb = [&r] { return run_schema(r.schema); }; });
+
+  CLI::App* completion = app.add_subcommand("completion", "Print the completion of commands for a shell");
+  completion->add_option("SHELL", r.shell, "Shell to complete for")
+      ->type_name("bash|zsh|fish")
+      ->check(one_of({"bash", "zsh", "fish"}))
+      ->required();
+  completion->callback([&app, &r] {
+    r.verb = [&app, &r] {
+      const CommandTree tree = command_tree(app);
+      fmt::print("{}", r.shell == "bash"  ? bash_completion(tree)
+                       : r.shell == "zsh" ? zsh_completion(tree)
+                                          : fish_completion(tree));
+      return static_cast<int>(kDone);
+    };
+  });
+
+  CLI::App* man = app.add_subcommand("man", "Print the manual page (troff; see it with: stillhook man | man -l -)");
+  man->callback([&app, &r] {
+    r.verb = [&app] {
+      fmt::print("{}", manual_page(command_tree(app), kVersion));
+      return static_cast<int>(kDone);
+    };
+  });
 }
 
 void add_verbs(CLI::App& app, Request& r) {
@@ -121,7 +187,7 @@ void add_verbs(CLI::App& app, Request& r) {
   fit->add_option("--measured", r.fit.measured,
                   "Measured run (CSV or NetCDF) for the record of the case that has no file; RECORD=FILE names the "
                   "record; may be repeated")
-      ->type_name("RUN.csv")
+      ->type_name("FILE")
       ->take_all()
       ->allow_extra_args(false);
   fit->callback([&r] { r.verb = [&r] { return run_fit(r.common, r.fit); }; });
@@ -129,11 +195,17 @@ void add_verbs(CLI::App& app, Request& r) {
   CLI::App* report = app.add_subcommand("report", "Rebuild the report of a run folder");
   report->add_option("RUN_DIR", r.common.input, "Folder that simulate or plan has written")->required();
   report->add_flag("--quiet", r.common.quiet, "No messages but errors");
+  add_colour_option(*report, r);
   report->callback([&r] { r.verb = [&r] { return run_report(r.common); }; });
 
-  CLI::App* schema = app.add_subcommand("schema", "Print the JSON Schema of case files");
-  schema->add_flag("--reference", r.reference, "Print the key reference (Markdown) instead");
-  schema->callback([&r] { r.verb = [&r] { return run_schema(r.reference); }; });
+  add_export(app, r);
+  add_help_verbs(app, r);
+}
+
+std::string exit_code_text() {
+  std::string text = "Exit codes:\n";
+  for (const ExitMeaning& exit : kExitMeanings) text += fmt::format("  {:<26}{}\n", exit.code, exit.text);
+  return text + "\nstillhook COMMAND --help lists the options of a command.";
 }
 
 int run_verb(const Request& request) {
@@ -146,6 +218,8 @@ int run_verb(const Request& request) {
   } catch (const StoreError& error) {
     spdlog::error("{}", error.what());
   } catch (const UsageError& error) {
+    spdlog::error("{}", error.what());
+  } catch (const FileError& error) {
     spdlog::error("{}", error.what());
   } catch (const std::exception& error) {
     if (is_interruption(error)) {
@@ -162,10 +236,8 @@ int run_verb(const Request& request) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app(
-      "stillhook plans the installation of offshore structures by crane vessel.\n"
-      "Exit codes: 0 done, 1 bug, 2 bad input, 3 limit violated or no plan, 4 numerical failure, 130 Ctrl-C.",
-      "stillhook");
+  CLI::App app("stillhook plans the installation of offshore structures by crane vessel.", "stillhook");
+  app.footer(exit_code_text());
   app.set_version_flag("--version", std::string("stillhook ") + kVersion);
   app.require_subcommand(1);
   Request request;
@@ -176,7 +248,11 @@ int run_command_line(int argc, char** argv) {
     // Help and version are the only ones that succeed.
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
-  set_up_messages(request.common.quiet);
+  const ColourWish wish = request.colour == "always"  ? ColourWish::always
+                          : request.colour == "never" ? ColourWish::never
+                                                      : ColourWish::automatic;
+  set_up_messages(request.common.quiet, wish);
+  set_stdout_colour(wants_colour(wish, STDOUT_FILENO));
   // Parallel products would split sums by the number of threads; parallelism is over scenarios.
   Eigen::setNbThreads(1);
   if (request.threads > 0) omp_set_num_threads(request.threads);

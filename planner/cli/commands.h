@@ -19,6 +19,18 @@ enum ExitCode : int {
   kInterrupted = 130  // after Ctrl-C, with what was reached so far saved
 };
 
+struct ExitMeaning {
+  int code;
+  const char* text;
+};
+inline constexpr ExitMeaning kExitMeanings[] = {
+    {kDone, "Done."},
+    {kBug, "A bug in stillhook; please report it."},
+    {kBadInput, "Bad input or usage, or a file that cannot be written."},
+    {kLimitViolated, "Done, but a limit is violated or no plan within the limits was found."},
+    {kNumericalFailure, "Numerical failure: the run diverged, and the message says where."},
+    {kInterrupted, "Ended by Ctrl-C, with what was reached so far saved."}};
+
 struct CommonOptions {
   std::string input;              // case file; for `report` the run folder
   std::vector<std::string> sets;  // KEY=VALUE
@@ -38,6 +50,15 @@ struct HydroArguments {
   std::vector<double> headings;  // deg, of the response amplitude operators; empty = usual ones
 };
 
+struct SchemaArguments {
+  bool reference = false, metrics = false;  // Markdown tables instead of the JSON Schema
+};
+
+struct ExportArguments {
+  bool csv = false, xlsx = false;     // one of them
+  std::vector<std::string> channels;  // patterns; empty = all
+};
+
 struct FitArguments {
   std::vector<std::string> measured;  // FILE or RECORD=FILE
 };
@@ -53,7 +74,8 @@ int run_plan(const CommonOptions& options, const PlanArguments& arguments);
 int run_tune(const CommonOptions& options, const TuneArguments& arguments);
 int run_fit(const CommonOptions& options, const FitArguments& arguments);
 int run_report(const CommonOptions& options);
-int run_schema(bool reference);
+int run_schema(const SchemaArguments& arguments);
+int run_export(const CommonOptions& options, const ExportArguments& arguments);
 
 /// The case file with every --set, and what else the verb sets on top. Throws CaseError and UsageError.
 Case load_case(const CommonOptions& options, const std::vector<Override>& more = {});

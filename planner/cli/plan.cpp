@@ -118,7 +118,7 @@ class Conclusion {
       add_new(summary_.warnings, r.warnings);
     }
     summary_.limits = worst_limits(limits);
-    write_history(folder_, run, planned);
+    write_history(folder_, run, planned, "plan");
     write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
                      {history_note(evaluator_, governing)}, judgement(x));
   }

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 
 #include "planner/text_number.h"
 
@@ -53,6 +55,10 @@ void Progress::clear() {
   drawn_ = false;
 }
 
-Progress stderr_progress(bool quiet) { return Progress(stderr, isatty(STDERR_FILENO) == 1, quiet); }
+Progress stderr_progress(bool quiet) {
+  const char* terminal = std::getenv("TERM");
+  const bool redraws = isatty(STDERR_FILENO) == 1 && terminal && std::string_view(terminal) != "dumb";
+  return Progress(stderr, redraws, quiet);
+}
 
 }  // namespace stillhook

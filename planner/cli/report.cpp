@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 
@@ -10,16 +11,12 @@
 namespace stillhook {
 namespace {
 
-Trajectory read_history(const RunFolder& folder) {
-  try {
-    return read_archive(folder.history());
-  } catch (const std::runtime_error& error) {
-    throw UsageError(error.what());
-  }
-}
-
 void rebuild_run(const RunFolder& folder, const Case& c, const std::string& statement) {
-  const RunResult run = judged(c.specification, read_history(folder), c.limits);
+  Trajectory trajectory = open_archive(folder.history());
+  // The archive of a run does not depend on the machine; how long it took is in the summary, if the run came so far.
+  if (std::filesystem::exists(folder.summary())) trajectory.wall = read_summary(folder.summary()).wall;
+  const RunResult run = judged(c.specification, std::move(trajectory), c.limits);
+  if (run.trajectory.status == RunStatus::interrupted) spdlog::warn("{}", run.trajectory.message);
   write_run_report(folder, run, prepare_run(c, c.specification), c, statement);
 }
 
@@ -31,7 +28,7 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
   const std::size_t governing = governing_scenario(evaluator, result.search.best);
   const Case planned = evaluator.case_at(result.search.best_x);
   const RunResult run =
-      judged(specification_at(evaluator, result.search.best_x, governing), read_history(folder), c.limits);
+      judged(specification_at(evaluator, result.search.best_x, governing), open_archive(folder.history()), c.limits);
   const SearchSection search = search_section(evaluator, result, SearchSection::kNone);
   write_run_report(folder, run, prepare_run(planned, run.specification), planned, statement, &search,
                    {history_note(evaluator, governing)});

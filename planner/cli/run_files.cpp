@@ -7,10 +7,14 @@
 
 namespace stillhook {
 
-void write_history(const RunFolder& folder, const RunResult& run, const Case& c) {
-  const ArchiveTitle title{c.title.empty() ? c.name : c.title, std::string("stillhook ") + kVersion,
-                           run.specification.sea.active};
-  write_or_refuse([&] { write_archive(run.trajectory, title, folder.history()); });
+ArchiveTitle archive_title(const Specification& specification, const Case& c, const std::string& verb) {
+  const std::string program = std::string("stillhook ") + kVersion;
+  return {c.title.empty() ? c.name : c.title, program, specification.sea.active,
+          program + ": " + verb + " of case " + c.name};
+}
+
+void write_history(const RunFolder& folder, const RunResult& run, const Case& c, const std::string& verb) {
+  write_archive(run.trajectory, archive_title(run.specification, c, verb), folder.history());
 }
 
 void write_run_report(const RunFolder& folder, const RunResult& run, const PreparedRun& prepared, const Case& c,

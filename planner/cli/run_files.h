@@ -7,8 +7,11 @@
 
 namespace stillhook {
 
-/// Writes history.nc.
-void write_history(const RunFolder& folder, const RunResult& run, const Case& c);
+/// What history.nc says about itself.
+ArchiveTitle archive_title(const Specification& specification, const Case& c, const std::string& verb);
+
+/// Writes history.nc of a run whose samples are in memory.
+void write_history(const RunFolder& folder, const RunResult& run, const Case& c, const std::string& verb);
 
 /// Writes report.html: static tables from the model, `search` for a plan.
 void write_run_report(const RunFolder& folder, const RunResult& run, const PreparedRun& prepared, const Case& c,

@@ -39,10 +39,10 @@ int exit_code(const RunResult& run) {
 }
 
 void print_run(const Summary& summary, const RunFolder& folder) {
-  fmt::print("{}: {} in {}, {:.0f} s simulated in {:.2f} s ({:.0f} times real time)\n\n{}\n{}\n{}\n", summary.case_name,
-             status_name(summary.status), summary.sea.empty() ? "calm water" : "sea " + summary.sea, summary.simulated,
-             summary.wall, summary.simulated / summary.wall, metrics_text(summary.metrics), limits_text(summary.limits),
-             "Report: " + folder.report());
+  fmt::print("{}: {} in {}, {:.0f} s simulated in {:.2f} s ({:.0f} times real time)\n\n{}\n{}\n{}\nReport: {}\n",
+             summary.case_name, status_name(summary.status), summary.sea.empty() ? "calm water" : "sea " + summary.sea,
+             summary.simulated, summary.wall, summary.simulated / summary.wall, metrics_text(summary.metrics),
+             limits_text(summary.limits), verdict_text(summary.metrics, summary.limits), folder.report());
 }
 
 }  // namespace
@@ -58,12 +58,13 @@ int run_simulate(const CommonOptions& options) {
   write_or_refuse([&] { write_file(folder.case_file(), case_text(c, statement)); });
 
   Progress progress = stderr_progress(options.quiet);
-  const RunResult run = run_lift(prepared, c.limits, &stop, [&](double t, double t_end) {
+  ArchiveStream archive(folder.history(), archive_title(c.specification, c, "simulate"));
+  const auto tell = [&](double t, double t_end) {
     progress.update(t_end > 0.0 ? t / t_end : 0.0, fmt::format("{:.0f} of {:.0f} s simulated", t, t_end));
-  });
+  };
+  const RunResult run = run_lift(prepared, c.limits, &stop, tell, &archive);
   progress.clear();
   const Summary summary = summary_of(run, c, "simulate");
-  write_history(folder, run, c);
   write_run_report(folder, run, prepared, c, statement);
   write_or_refuse([&] { write_summary(summary, folder.summary()); });  // last: its presence says that all is there
 

@@ -2,13 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "planner/cli/colour.h"
 #include "planner/cli/text_table.h"
 #include "planner/text_number.h"
 
 namespace stillhook {
 namespace {
 
-std::string verdict(const LimitCheck& check) { return check.pass ? "ok" : check.hard ? "FAIL" : "warning"; }
+std::string verdict(const LimitCheck& check) {
+  if (check.pass) return coloured(Colour::good, "ok");
+  return check.hard ? coloured(Colour::bad, "FAIL") : coloured(Colour::caution, "warning");
+}
+
+std::string yes_no(bool feasible) { return feasible ? coloured(Colour::good, "yes") : coloured(Colour::bad, "no"); }
 
 std::string terms_text(const SearchSection& s) {
   TextTable table({"term", "unit", "weight / scale", "baseline", "plan", "baseline part", "plan part"});
@@ -22,7 +28,7 @@ std::string terms_text(const SearchSection& s) {
 std::string comparison_text(const SearchSection& s) {
   TextTable table({"", "objective", "within limits"});
   const auto add = [&](const char* name, double objective, bool feasible) {
-    table.add({name, cell(objective, 4), feasible ? "yes" : "no"});
+    table.add({name, cell(objective, 4), yes_no(feasible)});
   };
   add("baseline", s.baseline_objective, s.baseline_feasible);
   add("plan", s.plan_objective, s.plan_feasible);
@@ -73,6 +79,18 @@ std::string limits_text(const std::vector<LimitCheck>& limits) {
     table.add({c.metric, c.unit, fmt::format("{} {:g}", c.is_max ? "<=" : ">=", c.limit), short_number(c.value),
                short_number(c.margin), verdict(c), cell(c.time, 1), c.phase});
   return "Limits\n" + table.text();
+}
+
+std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& limits) {
+  if (limits.empty()) return "No limits to keep.";
+  const LimitCheck* governing = governing_check(limits);
+  const std::string unit = governing->unit == "1" ? "" : " " + governing->unit;
+  const std::string by = fmt::format(", governed by {}: {}{}, limit {}{}", governing->metric,
+                                     short_number(governing->value), unit, short_number(governing->limit), unit);
+  if (metrics.status != RunStatus::completed) return coloured(Colour::bad, "NOT COMPLETED") + by;
+  return (within_limits(metrics, limits) ? coloured(Colour::good, "WITHIN LIMITS")
+                                         : coloured(Colour::bad, "NOT WITHIN LIMITS")) +
+         by;
 }
 
 std::string search_text(const SearchSection& s) {

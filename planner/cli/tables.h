@@ -17,6 +17,9 @@ std::string metrics_text(const Metrics& metrics);
 /// Each limit with its value, margin and verdict.
 std::string limits_text(const std::vector<LimitCheck>& limits);
 
+/// One line: within the limits or not, and the criterion that governs.
+std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& limits);
+
 /// Baseline and plan side by side: the objective term by term with the random search beside, variables, limits.
 std::string search_text(const SearchSection& search);
 

@@ -10,6 +10,7 @@
 
 #include "planner/hydro_convergence.h"
 #include "sim/hull/database.h"
+#include "tests/planner/documented_keys.h"
 #include "tests/planner/program.h"
 
 using namespace stillhook;
@@ -76,6 +77,7 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
   const std::string run_folder = folder / "runs/box-hydro";
   const json summary = json::parse(first.out);
   CHECK(summary == json::parse(content(run_folder + "/summary.json")));
+  CHECK(undocumented_keys(summary) == std::set<std::string>{});
   CHECK(summary["schema_version"] == 1);
   CHECK(summary["verb"] == "hydro");
   CHECK(summary["status"] == "completed");

@@ -1,0 +1,81 @@
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "results/files.h"
+#include "results/summary.h"
+
+namespace stillhook {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double number(const Json& entry) {
+  return entry.is_null() ? std::numeric_limits<double>::quiet_NaN() : entry.get<double>();
+}
+
+RunStatus status_of(const std::string& name) {
+  for (const RunStatus status : {RunStatus::completed, RunStatus::interrupted, RunStatus::diverged})
+    if (status_name(status) == name) return status;
+  return RunStatus::not_run;
+}
+
+Metrics metrics_of(const Json& document) {
+  Metrics metrics;
+  for (const auto& [name, m] : document.at("metrics").items())
+    metrics.items.push_back({name, m.at("unit").get<std::string>(), number(m.at("value")), number(m.at("time")),
+                             m.at("phase").get<std::string>()});
+  return metrics;
+}
+
+std::vector<LimitCheck> limits_of(const Json& document) {
+  std::vector<LimitCheck> limits;
+  for (const Json& l : document.at("limits")) {
+    LimitCheck check;
+    check.metric = l.at("name").get<std::string>();
+    check.unit = l.at("unit").get<std::string>();
+    check.source = l.at("source").get<std::string>();
+    check.phase = l.at("phase").get<std::string>();
+    check.is_max = l.at("sense") == "max";
+    check.value = number(l.at("value"));
+    check.limit = number(l.at("limit"));
+    check.margin = number(l.at("margin"));
+    check.time = number(l.at("time"));
+    check.hard = l.at("hard").get<bool>();
+    check.pass = l.at("pass").get<bool>();
+    limits.push_back(check);
+  }
+  return limits;
+}
+
+Summary summary_of(const Json& document) {
+  Summary summary;
+  const std::string program = document.at("program").get<std::string>();
+  summary.program_version = program.substr(program.find(' ') + 1);
+  summary.case_name = document.at("case").get<std::string>();
+  summary.verb = document.at("verb").get<std::string>();
+  summary.sea = document.at("sea").get<std::string>();
+  summary.status = status_of(document.at("status").get<std::string>());
+  summary.message = document.at("message").get<std::string>();
+  summary.warnings = document.at("warnings").get<std::vector<std::string>>();
+  summary.simulated = number(document.at("simulated_s"));
+  summary.wall = number(document.at("wall_s"));
+  summary.metrics = metrics_of(document);
+  summary.metrics.status = summary.status;
+  summary.limits = limits_of(document);
+  return summary;
+}
+
+}  // namespace
+
+Summary read_summary(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw FileError(path + ": cannot be read");
+  try {
+    return summary_of(Json::parse(in));
+  } catch (const Json::exception& error) {
+    throw FileError(path + ": is not the summary of a run: " + error.what());
+  }
+}
+
+}  // namespace stillhook
