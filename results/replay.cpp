@@ -207,6 +207,7 @@ Json bodies_entry(const Scene& scene, const RunView& view, Payload& payload) {
                       {"kind", kind_name(body.kind)},
                       {"floats", body.floats},
                       {"mesh", mesh_entry(body.mesh, payload)},
+                      {"envelope", mesh_entry(body.envelope, payload)},
                       {"members", members},
                       {"pose", pose_entry(view, body.name, payload)}});
   }

@@ -83,6 +83,7 @@ std::string page_head(const std::string& title, const std::string& program_versi
 std::string report_html(const ReportData& data) {
   const RunView view(data.specification, data.trajectory);
   const std::vector<ReportFigure> figures = report_figures(data, view);
+  const Scene scene = build_scene(data.specification, data.trajectory);
   const bool replay = !viewer_script().empty() && data.trajectory.time.size() >= 2;
   std::string body, nav;
   const auto section = [&](const char* id, const char* title, const std::string& content) {
@@ -93,11 +94,13 @@ std::string report_html(const ReportData& data) {
   section("statement", "What is asked", statement(data));
   if (data.search) section("search", "Baseline and plan", search_part(*data.search));
   section("limits", "Limits", limits_part(data));
+  section("basis", "Design basis", basis_part(data));
+  section("loads", "Weights, hook loads and amplification", loads_part(data, view));
   section("procedure", "Procedure step by step", procedure_part(data, view));
   section("plots", "Plots", plots_part(figures));
   section("metrics", "Metrics", metrics_part(data));
   section("contacts", "Contacts", contacts_part(data));
-  section("poses", "Static poses", poses_part(data));
+  section("poses", "Static poses", poses_part(data, scene));
   section("tables", "Further tables", extra_tables(data));
   section("assumptions", "Assumptions and deviations", assumptions_part(data));
   if (!data.case_text.empty())
@@ -114,8 +117,8 @@ std::string report_html(const ReportData& data) {
       verdict_part(data) + warnings(data), replay_part(data, replay), nav, body, escape_html(data.program_version),
       escape_html(data.specification.name), cost(data), replay ? licences() : "");
   if (replay) {
-    page += "<script type=\"text/plain\" id=\"replay-data\">" +
-            replay_text(data, view, build_scene(data.specification, data.trajectory), figures) + "</script>\n<script>";
+    page += "<script type=\"text/plain\" id=\"replay-data\">" + replay_text(data, view, scene, figures) +
+            "</script>\n<script>";
     page += viewer_script();
     page += "</script>";
   }

@@ -1,9 +1,10 @@
-// report.html: the document of a run or of a search. One file, no request to anything outside it, no script; readable
-// on a telephone and printable on A4. Units are the operator's (tonnes, m/min, degrees): conversion from SI happens
-// here.
+// report.html: the document of a run or of a search. One file, no request to anything outside it; readable on a
+// telephone, with or without its script, and printable on A4. Units are the operator's (tonnes, m/min, degrees):
+// conversion from SI happens here.
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,39 @@ struct ReportTable {
   std::string title, note;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;  // the first cell names the row
+};
+
+/// A value of the case and where it comes from.
+struct BasisEntry {
+  std::string key;  // with its unit, "bodies.load.mass_t"
+  std::string value, source;
+};
+
+/// How the metrics change with the design variables at the plan: derivatives in the metric's unit per unit of the
+/// variable's key.
+struct SensitivityTable {
+  struct Column {
+    std::string metric, unit;
+  };
+  struct Row {
+    std::string key;
+    double range = std::numeric_limits<double>::quiet_NaN();  // upper - lower bound, in the key's unit
+    std::vector<double> derivative;                           // one a column; NaN: not known
+  };
+  std::vector<Column> columns;
+  std::vector<Row> rows;
+  std::string note;  // how they were found, one sentence
+};
+
+/// Two metrics that cannot both be had, and the plans between which there is only a choice.
+struct ParetoFront {
+  struct Point {
+    double x = std::numeric_limits<double>::quiet_NaN(), y = std::numeric_limits<double>::quiet_NaN();
+    bool on_front = false, feasible = true;
+    std::string label;  // of a point to be named, may be empty
+  };
+  std::string metric_x, unit_x, metric_y, unit_y;
+  std::vector<Point> points;
 };
 
 /// What a search found, in plain data.
@@ -52,6 +86,8 @@ struct SearchSection {
   std::vector<LimitCheck> baseline_limits, plan_limits;  // same order, worst scenario of each
   std::vector<Point> history, random_history;
   std::vector<std::string> scenarios;  // one sentence each
+  std::optional<SensitivityTable> sensitivities = {};
+  std::optional<ParetoFront> pareto = {};
 };
 
 struct ReportData {
@@ -68,6 +104,7 @@ struct ReportData {
   std::vector<ReportTable> tables;
   const SearchSection* search = nullptr;
   std::vector<std::string> warnings = {};  // what must be known before the results are used, one sentence each
+  std::vector<BasisEntry> basis = {};      // every value of the case, in its order
 };
 
 /// The whole page.

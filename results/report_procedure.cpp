@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "results/html.h"
+#include "results/pose_drawing.h"
 #include "results/report_parts.h"
 
 namespace stillhook {
@@ -179,8 +180,8 @@ std::string gear_sentences(const Specification& s) {
     const char* radiation = h.kind == HydrodynamicsSpec::Kind::constant ? "constant added mass and damping"
                             : h.kind == HydrodynamicsSpec::Kind::table ? "retardation functions from a coefficient file"
                             : h.kind == HydrodynamicsSpec::Kind::database ? "coefficients from a database"
-                            : h.kind == HydrodynamicsSpec::Kind::panels ? "coefficients from the panel method"
-                                                                       : "no radiation forces";
+                            : h.kind == HydrodynamicsSpec::Kind::panels   ? "coefficients from the panel method"
+                                                                          : "no radiation forces";
     out += fmt::format("<li>{}: {}, {} Froude–Krylov model; extra roll damping {} % of critical.</li>",
                        escape_html(readable_name(body.name)), radiation,
                        body.hull.froude_krylov == HullSpec::FroudeKrylov::pressure ? "pressure" : "volume",
@@ -241,8 +242,15 @@ std::string procedure_part(const ReportData& data, const RunView& view) {
                     rows, -1);
 }
 
-std::string poses_part(const ReportData& data) {
+std::string poses_part(const ReportData& data, const Scene& scene) {
   std::string out;
+  const std::vector<std::string> drawings =
+      draw_poses(scene, data.trajectory.static_poses, data.specification.operation.target);
+  for (const std::string& drawing : drawings) out += "<figure>" + drawing + "</figure>";
+  if (!out.empty())
+    out = "<div class=\"poses\">" + out +
+          "</div><p><small>Calm water, to scale. Above: elevation from starboard, below: "
+          "plan; x to the right. Cross: target. Booms as thick as their section allows.</small></p>";
   if (!data.trajectory.static_poses.empty())
     out += "<h3>At the start and at the end of each phase</h3>" + poses_table(data, data.trajectory.static_poses);
   if (!data.poses.empty()) out += "<h3>Poses asked for by the case</h3>" + poses_table(data, data.poses);

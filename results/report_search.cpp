@@ -134,7 +134,10 @@ std::string search_part(const SearchSection& search) {
   if (!rows.empty())
     out +=
         "<h3>Design variables</h3>" + html_table({"case key", "lowest", "highest", "baseline ○", "plan ●", ""}, rows);
-  return out + convergence_plot(search);
+  out += convergence_plot(search);
+  if (search.sensitivities) out += sensitivity_part(*search.sensitivities);
+  if (search.pareto) out += pareto_part(*search.pareto);
+  return out;
 }
 
 }  // namespace stillhook

@@ -9,15 +9,23 @@ std::string report_style() {
 html{-webkit-text-size-adjust:100%;scroll-padding-top:1rem}
 body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,"Segoe UI",Helvetica,Arial,sans-serif;font-variant-numeric:tabular-nums}
 main,header,footer{max-width:66rem;margin:0 auto;padding:0 1.25rem}
-header{padding-top:1.75rem}
+header{padding-top:1.1rem}
 #overview{display:grid;grid-template-columns:minmax(0,21rem) minmax(0,1fr);gap:0 1.4rem;align-items:start}
 main:has(#overview),header:has(+main>#overview){max-width:80rem}
 main:has(#overview)>nav,main:has(#overview)>section:not(#overview){max-width:66rem;margin-left:auto;margin-right:auto}
+header:has(+main>#overview) p{max-width:none}
+#overview>div{margin-top:.7rem}
+.judgement .verdict{margin:0 0 .7rem;padding:.7rem .9rem;font-size:.92rem;overflow-wrap:anywhere}
+.judgement .tiles{grid-template-columns:1fr 1fr;gap:.45rem;margin:0}
+.judgement .tile{padding:.4rem .6rem}
+.judgement .tile b{font-size:1.2rem}
+.judgement .tile .pass,.judgement .tile .fail,.judgement .tile .warn{font-size:.8rem}
+.key{display:block;line-height:1.5}
 .replay{min-width:0}
-h1{font-size:1.65rem;line-height:1.2;margin:0 0 .25rem;letter-spacing:-.01em}
+h1{font-size:1.45rem;line-height:1.2;margin:0 0 .25rem;letter-spacing:-.01em}
 h2{font-size:1.25rem;line-height:1.25;margin:2.5rem 0 .6rem;padding-top:.75rem;border-top:1px solid var(--line)}
 h3{font-size:1rem;margin:1.5rem 0 .35rem}
-p{margin:.4rem 0;max-width:46rem}
+p{margin:.4rem 0;max-width:46rem;overflow-wrap:anywhere}
 a{color:var(--link)}
 .muted,small{color:var(--muted)}
 small{font-size:.84rem}
@@ -61,6 +69,9 @@ td .pass,td .fail,td .warn,td small{white-space:nowrap}
 figure{margin:1rem 0;break-inside:avoid}
 figure .scroll{margin:0}
 svg.plot{display:block;width:100%;min-width:600px;height:auto}
+.poses{display:grid;grid-template-columns:repeat(auto-fill,minmax(19rem,1fr));gap:.2rem 1.2rem}
+.poses figure{margin:.4rem 0}
+svg.pose{display:block;width:100%;height:auto;border:1px solid var(--line)}
 svg.range{width:110px;height:14px;vertical-align:middle}
 figcaption{font-size:.84rem;color:var(--muted);max-width:46rem}
 pre{overflow-x:auto;background:var(--soft);padding:.8rem;font:12.5px/1.45 ui-monospace,Menlo,Consolas,"DejaVu Sans Mono",monospace}
@@ -69,7 +80,7 @@ ul,ol{padding-left:1.3rem}
 li{margin:.2rem 0}
 footer{margin-top:2.5rem;padding-top:.8rem;padding-bottom:2rem;border-top:1px solid var(--line);font-size:.84rem;color:var(--muted)}
 a:focus-visible,summary:focus-visible,.scroll:focus-visible{outline:3px solid #005c94;outline-offset:2px}
-@media(max-width:900px){#overview{display:block}}
+@media(max-width:900px){#overview{display:flex;flex-direction:column;align-items:stretch}.judgement{display:contents}.judgement .verdict{order:-2;margin-top:.7rem}.replay{order:-1}.judgement .tiles{margin-top:1rem}.replay .phases{margin:.2rem 0}}
 @media(max-width:480px){main,header,footer{padding-left:.9rem;padding-right:.9rem}h1{font-size:1.35rem}.tiles{grid-template-columns:1fr 1fr}.tile b{font-size:1.15rem}table{min-width:36rem}}
 @page{size:A4;margin:14mm 13mm}
 @media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}nav{display:none}.scroll{overflow:visible}table{font-size:7.6pt}th,td{padding:.18rem .3rem}td.n,th.n{white-space:normal}tr,.tile,.verdict{break-inside:avoid}h2,h3{break-after:avoid}svg.plot{min-width:0}thead{display:table-header-group}

@@ -19,11 +19,6 @@ std::string cell(const std::string& name, const std::string& unit, double value)
   return text;
 }
 
-/// A time that the viewer turns into a way to jump there.
-std::string event_time(double time) {
-  return fmt::format("<span data-time=\"{:.3f}\">{}</span>", time, clock_time(time));
-}
-
 std::string when(double time) { return std::isfinite(time) ? event_time(time) : "–"; }
 
 std::string phase_cell(const std::string& phase) { return phase.empty() ? "–" : escape_html(readable_name(phase)); }
@@ -62,6 +57,10 @@ std::string element_table(const ReportData& data, const char* title, const std::
 }
 
 }  // namespace
+
+std::string event_time(double time) {
+  return fmt::format("<span data-time=\"{:.3f}\">{}</span>", time, clock_time(time));
+}
 
 Shown show_metric(const std::string& name, const std::string& unit, double value) {
   if (!std::isfinite(value)) return {"–", unit == "1" ? "" : unit, ""};

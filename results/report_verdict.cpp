@@ -36,33 +36,60 @@ std::string value_with_unit(const std::string& name, const std::string& unit, do
 std::string governing_sentence(const ReportData& data) {
   const LimitCheck* governing = governing_check(data.limits);
   if (!governing) return "<p>The case sets no limits.</p>";
-  const std::string name = "<b>" + escape_html(governing->metric) + "</b>";
+  const MetricDefinition* definition = metric_definition(governing->metric);
+  const std::string name =
+      "<b>" + escape_html(governing->metric) + "</b>" + (definition ? ", " + escape_html(definition->description) : "");
   if (!std::isfinite(governing->value))
-    return fmt::format("<p>Governing criterion: {} has no value in this run, so it cannot be shown to be kept.</p>",
-                       name);
+    return fmt::format("<p>Governing: {}. It has no value in this run, so it cannot be shown to be kept.</p>", name);
   std::string when;
   if (!governing->phase.empty()) when += " in " + escape_html(readable_name(governing->phase));
-  if (std::isfinite(governing->time)) when += " at " + clock_time(governing->time);
+  if (std::isfinite(governing->time)) when += " at " + event_time(governing->time);
   std::string share;
   if (governing->limit != 0.0 && std::isfinite(relative_margin(*governing)))
     share = fmt::format(", a margin of {} %", fixed_number(100.0 * relative_margin(*governing), 0));
-  return fmt::format("<p>Governing criterion: {} = {}, {} {}{}{}.</p>", name,
+  return fmt::format("<p>Governing: {}: <b>{}</b>, {} {}{}{}.</p>", name,
                      value_with_unit(governing->metric, governing->unit, governing->value),
                      governing->is_max ? "limit" : "at least",
                      value_with_unit(governing->metric, governing->unit, governing->limit), share, when);
 }
 
-std::string tile(const ReportData& data, const char* metric, const char* label, bool operator_unit) {
+/// A number that matters, beside the limit it has.
+std::string tile(const ReportData& data, const std::string& metric, const std::string& label, bool operator_unit) {
   const Metric* m = data.metrics.find(metric);
   if (!m) return {};
-  const Shown shown = show_metric(m->name, m->unit, m->value);
-  std::string value = shown.value, unit = shown.unit;
-  if (operator_unit && !shown.aside.empty()) {
+  const auto text = [&](double v) {
+    const Shown shown = show_metric(m->name, m->unit, v);
+    if (!operator_unit || shown.aside.empty()) return std::pair(shown.value, shown.unit);
     const std::size_t space = shown.aside.find(' ');
-    value = shown.aside.substr(0, space);
-    unit = space == std::string::npos ? "" : shown.aside.substr(space + 1);
-  }
-  return fmt::format("<div class=\"tile\"><b>{} <span>{}</span></b><div>{}</div></div>", value, unit, label);
+    return std::pair(shown.aside.substr(0, space), space == std::string::npos ? "" : shown.aside.substr(space + 1));
+  };
+  std::string limits;
+  for (const LimitCheck& c : data.limits)
+    if (c.metric == metric)
+      limits += fmt::format(" <span class=\"{}\">{}&nbsp;{}</span>",
+                            c.pass   ? "pass"
+                            : c.hard ? "fail"
+                                     : "warn",
+                            c.is_max ? "≤" : "≥", text(c.limit).first);
+  const auto [value, unit] = text(m->value);
+  return fmt::format("<div class=\"tile\"><b>{} <span>{}</span></b><div>{}{}</div></div>", value, unit, label, limits);
+}
+
+/// The clearance that comes closest to its limit, or without limits the smallest.
+std::string closest_clearance(const ReportData& data) {
+  const LimitCheck* closest = nullptr;
+  for (const LimitCheck& c : data.limits)
+    if (c.metric.starts_with("clearance_min.") && (!closest || relative_margin(c) < relative_margin(*closest)))
+      closest = &c;
+  std::string name = closest ? closest->metric : "";
+  double smallest = std::numeric_limits<double>::infinity();
+  if (!closest)
+    for (const Metric& m : data.metrics.items)
+      if (m.name.starts_with("clearance_min.") && m.value < smallest) {
+        smallest = m.value;
+        name = m.name;
+      }
+  return name.empty() ? "" : tile(data, name, escape_html(readable_name(name.substr(14))), false);
 }
 
 /// The phases to scale, numbered and named, with marks for contacts.
@@ -89,12 +116,12 @@ std::string timeline(const ReportData& data) {
                            escape_html(c.contact), clock_time(c.start));
   return fmt::format(
       "<div class=\"track\" role=\"img\" aria-label=\"Phases of the operation to scale\">{}</div>"
-      "<div class=\"ticks\" aria-hidden=\"true\">{}</div>{}<ol class=\"phases\">{}</ol>"
-      "<small>Start + duration, h:min:s. Colours: "
+      "<div class=\"ticks\" aria-hidden=\"true\">{}</div><ol class=\"phases\">{}</ol>"
+      "<small class=\"key\">Start + duration, h:min:s.{} "
       "<b style=\"color:#5b6672\">on the barge</b>, <b style=\"color:#a83a00\">load transfer</b>, "
       "<b style=\"color:#005c94\">hanging</b>, <b style=\"color:#87357a\">set-down</b>, "
       "<b style=\"color:#00603a\">landed</b>.</small>",
-      bars, ticks, ticks.empty() ? "" : "<small>Marks under the bar: contacts.</small>", list);
+      bars, ticks, list, ticks.empty() ? "" : " Marks: contacts.");
 }
 
 }  // namespace
@@ -121,17 +148,11 @@ std::string verdict_part(const ReportData& data) {
   std::string out = fmt::format("<div class=\"verdict{}\" role=\"status\"><strong>{}</strong>{}{}</div>", cls,
                                 escape_html(headline), detail, governing_sentence(data));
   out += "<div class=\"tiles\">";
-  out += tile(data, "daf_total", "DAF, total hook load", false) + tile(data, "daf_max", "DAF, worst fall", false);
-  out += tile(data, "hook_load_max", "largest hook load", true);
-  out += tile(data, "sway_rms", "sway of the load, rms", false) + tile(data, "sway_peak", "sway, largest", false);
+  out += tile(data, "daf_total", "DAF, hook load", false) + tile(data, "hook_load_max", "largest hook load", true);
+  out += tile(data, "sway_peak", "largest sway", false) + closest_clearance(data);
   out += tile(data, "offlead_max", "off-lead", false) + tile(data, "sidelead_max", "side-lead", false);
-  out += tile(data, "rehits", "re-hits after lift-off", false);
-  out += tile(data, "rehit_speed_max", "fastest re-hit", false);
-  out += tile(data, "setdown_offset", "off target at the end", false);
-  out += tile(data, "setdown_speed", "set-down speed", false);
-  out += tile(data, "tagline_saturated", "tagline winches saturated", true);
-  out += tile(data, "heel_max", "heel of the crane", false) + tile(data, "trim_max", "trim of the crane", false);
-  out += tile(data, "duration", "duration, h:min:s", true);
+  out += tile(data, "rehits", "re-hits", false) + tile(data, "setdown_speed", "set-down speed", false);
+  out += tile(data, "setdown_offset", "off target", false) + tile(data, "duration", "duration, h:min:s", true);
   return out + "</div>";
 }
 

@@ -65,10 +65,16 @@ std::vector<Vector3> line_points(const Specification& s, const std::string& body
   return points;
 }
 
-/// The box that a clearance gives, or the one around contact and lift points; empty without either.
-Mesh known_box(const Specification& s, const std::string& body) {
+/// The box that a clearance gives; empty without one.
+Mesh clearance_box(const Specification& s, const std::string& body) {
   for (const ClearanceSpec::Shape& shape : shapes_of(s, body))
     if (!(shape.radius > 0.0)) return plain_box(shape.from.cwiseMin(shape.to), shape.from.cwiseMax(shape.to));
+  return {};
+}
+
+/// The box of a clearance, or the one around contact and lift points; empty without either.
+Mesh known_box(const Specification& s, const std::string& body) {
+  if (Mesh box = clearance_box(s, body); !box.triangles.empty()) return box;
   std::vector<Vector3> points;
   for (const ContactSpec& c : s.contacts)
     if (c.body == body) points.insert(points.end(), c.points.begin(), c.points.end());
@@ -116,6 +122,8 @@ SceneBody scene_body(const Specification& s, const BodySpec& body) {
              : body.name == s.operation.crane ? SceneBody::Kind::crane
              : out.floats                     ? SceneBody::Kind::vessel
                                               : SceneBody::Kind::member;
+  if (body.hull.shape == HullSpec::Shape::mesh && out.floats && out.kind == SceneBody::Kind::load)
+    out.envelope = clearance_box(s, body.name);
   if (out.mesh.triangles.empty()) out.mesh = known_box(s, body.name);
   if (out.mesh.triangles.empty()) out.members = members_of(s, body.name);
   return out;

@@ -26,6 +26,7 @@ struct SceneBody {
   Kind kind = Kind::member;
   Mesh mesh;            // m, in B; empty if the body is drawn by its members
   bool floats = false;  // the mesh is a hull
+  Mesh envelope;        // m, in B: the box of its clearances where the mesh is another; empty if there is none
   std::vector<Member> members;
 };
 

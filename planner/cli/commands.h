@@ -86,7 +86,7 @@ std::string folder_path(const CommonOptions& options, const Case& c, const std::
 /// The comment that a case file opens with, without its '#': the problem in words. Empty if there is none.
 std::string statement_of(const std::string& case_file);
 
-/// The resolved case with its statement on top, as a file that read_case() takes.
+/// The resolved case with its statement on top and its remarks on sources, as a file that read_case() takes.
 std::string case_text(const Case& c, const std::string& statement);
 
 /// Calls what writes a file; a failure (no space, no permission) becomes a UsageError with the same sentence.

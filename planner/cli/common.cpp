@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "planner/cli/commands.h"
+#include "problems/case_sources.h"
 
 namespace stillhook {
 
@@ -36,7 +37,7 @@ std::string case_text(const Case& c, const std::string& statement) {
   std::istringstream lines(statement);
   for (std::string line; std::getline(lines, line);) text += line.empty() ? "#\n" : "# " + line + "\n";
   if (!text.empty()) text += "\n";
-  return text + c.resolved;
+  return text + text_with_remarks(c);
 }
 
 }  // namespace stillhook

@@ -3,6 +3,7 @@
 #include "planner/cli/commands.h"
 #include "planner/static_tables.h"
 #include "planner/version.h"
+#include "problems/case_sources.h"
 #include "results/archive.h"
 
 namespace stillhook {
@@ -24,6 +25,8 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
   std::vector<ReportTable> all = tables;
   for (ReportTable& table : static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation)))
     all.push_back(std::move(table));
+  std::vector<BasisEntry> basis;
+  for (const CaseSource& source : case_sources(c)) basis.push_back({source.key, source.value, source.remark});
   const ReportData data{c.title.empty() ? c.name : c.title,
                         statement,
                         c.resolved,
@@ -36,7 +39,8 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                         poses,
                         std::move(all),
                         search,
-                        prepared.model.warnings()};
+                        prepared.model.warnings(),
+                        std::move(basis)};
   write_or_refuse([&] { write_report(data, folder.report()); });
 }
 

@@ -58,9 +58,11 @@ export class Chromium {
   }
 
   async close() {
-    this.child.kill("SIGKILL");
+    this.send("Browser.close").catch(() => {});
+    const late = setTimeout(() => this.child.kill("SIGKILL"), 3000);
     await this.gone;
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 });
+    clearTimeout(late);
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 50 });
   }
 
   /** A tab of a size, that remembers what went wrong on its page and what it asked the network for. */
@@ -140,9 +142,10 @@ class Page {
 
   async key(key, { shift = false } = {}) {
     const text = key.length === 1 ? key : undefined;
-    const code = { " ": "Space" }[key];
+    const code = { " ": "Space" }[key] ?? key;
+    const windowsVirtualKeyCode = { Tab: 9, Escape: 27, " ": 32 }[key];
     for (const type of ["keyDown", "keyUp"])
-      await this.send("Input.dispatchKeyEvent", { type, key, code, text: type === "keyDown" ? text : undefined, modifiers: shift ? 8 : 0 });
+      await this.send("Input.dispatchKeyEvent", { type, key, code, windowsVirtualKeyCode, text: type === "keyDown" ? text : undefined, modifiers: shift ? 8 : 0 });
   }
 
   async click(x, y) {

@@ -10,6 +10,7 @@
 #include "results/files.h"
 #include "results/html.h"
 #include "results/plot.h"
+#include "results/report_parts.h"
 #include "results/summary.h"
 #include "results/viewer_bundle.h"
 #include "tests/results/synthetic_lift.h"
@@ -75,6 +76,14 @@ SearchSection a_search(const std::vector<LimitCheck>& checks) {
     search.history.push_back({3.3 - 1.2 * (1 - std::exp(-i / 15.0)) + 0.04 * ((i * 7919) % 13), i % 3 != 0});
     search.random_history.push_back({2.7 + 0.06 * ((i * 104729) % 17), i % 4 == 0});
   }
+  search.sensitivities = SensitivityTable{
+      {{"daf_total", "1"}, {"sway_rms", "m"}},
+      {{"taglines.*.kp_kN_per_deg", 100, {-0.0002, 0.0011}}, {"operation.ramp_s", 52, {0.0001, std::nan("")}}},
+      "By the tangent of the run."};
+  search.pareto = ParetoFront{"daf_max", "1", "duration", "s", {}};
+  for (int i = 0; i < 9; ++i)
+    search.pareto->points.push_back({1.0 + 0.02 * i, 2400.0 - 60.0 * i, true, true, i == 4 ? "plan" : ""});
+  search.pareto->points.push_back({1.15, 2300.0, false, false, ""});
   search.scenarios = {"paper_text, towards 45°", "paper_table1, towards 135°"};
   return search;
 }
@@ -130,7 +139,23 @@ TEST_CASE("the report is one well-formed file that asks for nothing outside itse
   CHECK(html.find("extra roll damping 4.0 % of critical") != std::string::npos);
   CHECK(html.find("haul in 14.00 m at 5.60 m/min") != std::string::npos);  // 2 * 14 m / 300 s
   CHECK(html.find("Radiation is constant.") != std::string::npos);
+  CHECK(html.find("<td class=\"n\"><b>0.0011</b></td>") != std::string::npos);  // the only one known of its column
+  CHECK(html.find("<td class=\"n\"><b>\u22120.0002</b></td>") != std::string::npos);  // 0.02 over its range, not 0.005
+  CHECK(count(html, "<circle cx=") >= 10);
   CHECK(count(html, "class=\"plot\"") >= 16);
+}
+
+TEST_CASE("the tabulated amplification factor at the rows of 0027/ND Table 5-1") {
+  // Read off the printed table; between 3 t and 100 t the formulae at SHL 25 t, where the root is 2.
+  CHECK(tabulated_daf(LiftPlace::offshore, 50.0, 25.0) == Approx(1.5));
+  CHECK(tabulated_daf(LiftPlace::inshore, 50.0, 25.0) == Approx(1.17));
+  CHECK(tabulated_daf(LiftPlace::onshore, 50.0, 25.0) == Approx(1.10));
+  CHECK(tabulated_daf(LiftPlace::offshore, 300.0, 310.0) == Approx(1.25));
+  CHECK(tabulated_daf(LiftPlace::offshore, 1000.0, 1003.0) == Approx(1.20));
+  CHECK(tabulated_daf(LiftPlace::inshore, 1001.0, 1003.0) == Approx(1.08));
+  CHECK(tabulated_daf(LiftPlace::onshore, 5000.0, 5100.0) == Approx(1.03));
+  CHECK(tabulated_daf(LiftPlace::offshore, 5000.0, 5100.0) == Approx(1.10));
+  CHECK(std::isnan(tabulated_daf(LiftPlace::offshore, 2.0, 2.0)));
 }
 
 TEST_CASE("a run that failed at once still has a report that says so") {

@@ -99,7 +99,10 @@ export class Body {
     if (body.pose.length) {
       const waterline = -payload.series(body.pose[2])[0];
       if (body.mesh) this.group.add(...meshBody(payload, body, waterline));
-      else if (body.members.length) this.group.add(...memberBody(body));
+      if (body.envelope)
+        this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(meshGeometry(payload, body.envelope), EDGE_ANGLE),
+          new THREE.LineBasicMaterial({ color: COLOURS[body.kind] })));
+      if (body.members.length) this.group.add(...memberBody(body));
     }
   }
 

@@ -11,8 +11,8 @@ export const TENSION_COLOURS = [
   [0.1, "#8fc7e8"],
   [0.6, "#2a7fb8"],
   [1.0, "#1d4f3f"],
-  [1.1, "#e0a100"],
-  [1.25, "#c4001d"],
+  [1.15, "#e0a100"],
+  [1.5, "#c4001d"],
 ];
 
 const stops = TENSION_COLOURS.map(([at, colour]) => [at, new THREE.Color(colour)]);

@@ -23,7 +23,7 @@ function legend() {
     "div", { class: "legend" },
     element("div", {}, "Wire tension ÷ static"),
     element("div", { class: "scale", style: `background:linear-gradient(90deg,${stops})` }),
-    element("div", { class: "scale-marks" }, mark(0, "0"), mark(0.5, "0.5"), mark(1, "1"), mark(1.25, "1.25")),
+    element("div", { class: "scale-marks" }, mark(0, "0"), mark(0.5, "0.5"), mark(1, "1"), mark(1.5, "1.5")),
   );
 }
 

@@ -9,11 +9,12 @@ import { Sea } from "./sea.js";
 const SKY = "#e6edf2";
 const LEG_DEPTH = 40; // m, how far down a support's legs are drawn
 
+/** `room`: 1 = the corners of the box around everything just touch the edge. */
 export const VIEWS = [
-  { name: "Overview", direction: [0.62, -0.72, 0.34] },
-  { name: "Side", direction: [0, -1, 0.03] },
-  { name: "Ahead", direction: [1, 0, 0.05] },
-  { name: "Plan", direction: [0, -0.001, 1] },
+  { name: "Overview", direction: [0.62, -0.72, 0.34], room: 0.86 },
+  { name: "Side", direction: [0, -1, 0.03], room: 1.06 },
+  { name: "Ahead", direction: [1, 0, 0.05], room: 1.06 },
+  { name: "Plan", direction: [0, -0.001, 1], room: 1.06 },
 ];
 
 /** Something to be set down on: a slab under the rectangle, on legs where it stands in the world above the sea. */
@@ -132,7 +133,7 @@ export class ReplayScene {
         for (const z of [Math.max(this.box.min.z, -30), this.box.max.z]) {
           const p = new THREE.Vector3(x, y, z).applyMatrix4(back);
           const needed = Math.max(Math.abs(p.x) / (tan * this.camera.aspect), Math.abs(p.y) / tan) + p.z + 1;
-          distance = Math.max(distance, 1.04 * needed);
+          distance = Math.max(distance, VIEWS[index].room * needed);
         }
     this.camera.position.copy(this.middle).addScaledVector(direction, distance);
     this.current = index;

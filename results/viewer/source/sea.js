@@ -51,7 +51,7 @@ const FRAGMENT = /* glsl */ `
   varying vec3 place;
   varying vec3 slope;
   void main() {
-    vec3 n = normalize(vec3(-4.0 * slope.xy, 1.0)); // steeper than they are, to be seen
+    vec3 n = normalize(vec3(-2.2 * slope.xy, 1.0)); // steeper than they are, to be seen
     vec3 view = normalize(cameraPosition - place);
     if (view.z < 0.0) n = -n;
     float glance = pow(1.0 - clamp(dot(n, view), 0.0, 1.0), 4.0);

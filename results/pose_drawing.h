@@ -1,0 +1,14 @@
+// Static poses drawn to scale: elevation from starboard (x to the right, z up) and plan (x to the right, y up).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/scene.h"
+
+namespace stillhook {
+
+/// One <svg> a pose, all to the same scale and about the same place. `target` (m, in W) is marked with a cross.
+std::vector<std::string> draw_poses(const Scene& scene, const std::vector<StaticPose>& poses, const Vector3& target);
+
+}  // namespace stillhook

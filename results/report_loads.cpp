@@ -1,0 +1,186 @@
+// Weights, hook loads and their amplification beside the tabulated one, by phase; where moored vessels go.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/html.h"
+#include "results/report_parts.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s2
+constexpr double kTonne = 1000.0 * kGravity;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<const WireSpec*> hoist_wires(const Specification& s) {
+  std::vector<const WireSpec*> wires;
+  for (const WireSpec& wire : s.wires)
+    if (wire.role == WireSpec::Role::hoist) wires.push_back(&wire);
+  return wires;
+}
+
+const BodySpec* load_of(const Specification& s) {
+  for (const BodySpec& body : s.bodies)
+    if (body.name == s.operation.load) return &body;
+  return nullptr;
+}
+
+/// What the hoist wires carry together in one phase, N.
+struct PhaseLoad {
+  double static_start = 0.0, static_end = 0.0;
+  Peak largest, amplification;
+};
+
+PhaseLoad phase_load(const RunView& view, const std::vector<const WireSpec*>& wires, std::size_t p) {
+  PhaseLoad out;
+  const PhaseRecord& phase = view.run().phases[p];
+  for (const WireSpec* wire : wires) {
+    out.static_start += view.static_value(p, wire->name + ".tension");
+    out.static_end += view.static_value(p + 1, wire->name + ".tension");
+  }
+  std::vector<std::string> channels;
+  std::vector<std::span<const double>> tensions;
+  for (const WireSpec* wire : wires) {
+    channels.push_back(wire->name + ".tension");
+    tensions.push_back(view.series(channels.back()));
+    if (tensions.back().empty()) return out;
+  }
+  const bool hangs = phase.stage == PhaseSpec::Stage::hanging;
+  const RunView::Range range = view.samples(p);
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const double t = view.run().time[i];
+    double sum = 0.0, at_rest = 0.0;
+    for (std::size_t w = 0; w < tensions.size(); ++w) {
+      sum += tensions[w][i];
+      if (hangs) at_rest += view.static_at(p, t, channels[w]);
+    }
+    out.largest.take_larger(sum, t);
+    if (hangs) out.amplification.take_larger(sum / at_rest, t);
+  }
+  return out;
+}
+
+/// Sum of a limit over wires that must all give it.
+double sum_of(const std::vector<const WireSpec*>& wires, double WireSpec::*limit) {
+  double sum = 0.0;
+  for (const WireSpec* wire : wires) {
+    if (!(wire->*limit > 0.0)) return kNaN;
+    sum += wire->*limit;
+  }
+  return sum;
+}
+
+std::string tonnes(double newton) { return fixed_number(newton / kTonne, 1); }
+
+std::string phase_table(const RunView& view, const std::vector<const WireSpec*>& wires) {
+  const double winches = sum_of(wires, &WireSpec::tension_max), breaking = sum_of(wires, &WireSpec::breaking_load);
+  const auto share = [](double load, double limit) {
+    return std::isfinite(load / limit) ? fixed_number(100.0 * load / limit, 1) : std::string("–");
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t p = 0; p < view.run().phases.size(); ++p) {
+    const PhaseLoad load = phase_load(view, wires, p);
+    rows.push_back({std::to_string(p + 1) + " " + escape_html(readable_name(view.run().phases[p].name)),
+                    tonnes(load.static_start), tonnes(load.static_end), tonnes(load.largest.value),
+                    std::isfinite(load.largest.time) ? event_time(load.largest.time) : "–",
+                    fixed_number(load.amplification.value, 3), share(load.largest.value, winches),
+                    share(load.largest.value, breaking)});
+  }
+  return html_table({"phase", "static hook load at its start, t", "at its end, t", "largest dynamic hook load, t", "at",
+                     "DAF simulated", "share of the winch limits, %", "share of the breaking loads, %"},
+                    rows);
+}
+
+std::string daf_table(const ReportData& data, double weight, double hook_load) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [place, name] :
+       {std::pair{LiftPlace::onshore, "onshore"}, {LiftPlace::inshore, "inshore"}, {LiftPlace::offshore, "offshore"}}) {
+    const double daf = tabulated_daf(place, weight / kTonne, hook_load / kTonne);
+    rows.push_back({std::string("tabulated, ") + name, fixed_number(daf, 3), tonnes(hook_load), tonnes(daf * hook_load),
+                    "0027/ND rev 11.2, Table 5-1"});
+  }
+  const double simulated = data.metrics.value("daf_total");
+  rows.push_back({"<b>simulated</b>", "<b>" + fixed_number(simulated, 3) + "</b>", tonnes(hook_load),
+                  "<b>" + tonnes(simulated * hook_load) + "</b>", "this run, hanging phases"});
+  return html_table({"dynamic amplification factor", "DAF", "SHL, t", "DHL = DAF × SHL, t", "source"}, rows);
+}
+
+/// The largest horizontal departure of every moored vessel from where it lies in calm water.
+std::string offset_table(const ReportData& data, const RunView& view) {
+  std::vector<std::vector<std::string>> rows;
+  for (const BodySpec& body : data.specification.bodies) {
+    const bool moored = std::any_of(data.specification.moorings.begin(), data.specification.moorings.end(),
+                                    [&](const MooringSpec& m) { return m.body == body.name && m.tow.empty(); });
+    const auto x = view.series(body.name + ".x"), y = view.series(body.name + ".y");
+    if (!moored || x.empty() || y.empty()) continue;
+    Peak fore, athwart, away;
+    for (std::size_t p = 0; p < view.run().phases.size(); ++p) {
+      const RunView::Range range = view.samples(p);
+      for (std::size_t i = range.first; i < range.last; ++i) {
+        const double t = view.run().time[i];
+        const double dx = x[i] - view.planned_at(p, t, body.name + ".x");
+        const double dy = y[i] - view.planned_at(p, t, body.name + ".y");
+        fore.take_larger(std::abs(dx), t);
+        athwart.take_larger(std::abs(dy), t);
+        away.take_larger(std::hypot(dx, dy), t);
+      }
+    }
+    const auto cell = [](const Peak& peak) {
+      return fixed_number(peak.value, 2) + (peak.valid() ? " at " + event_time(peak.time) : "");
+    };
+    rows.push_back({escape_html(readable_name(body.name)), cell(fore), cell(athwart), cell(away)});
+  }
+  if (rows.empty()) return {};
+  return "<h3>Mooring offsets</h3>" + html_table({"vessel", "along x, m", "along y, m", "together, m"}, rows) +
+         "<p><small>From the position in calm water at the same moment of the operation. Tensions of the lines are "
+         "under Metrics.</small></p>";
+}
+
+}  // namespace
+
+double tabulated_daf(LiftPlace place, double weight, double static_hook_load) {
+  struct Row {
+    double up_to, onshore, inshore, offshore;
+  };
+  static constexpr Row kRows[] = {{300.0, 1.05, 1.12, 1.25},
+                                  {1000.0, 1.05, 1.10, 1.20},
+                                  {2500.0, 1.03, 1.08, 1.15},
+                                  {std::numeric_limits<double>::infinity(), 1.03, 1.05, 1.10}};
+  if (!(weight >= 3.0) || !(static_hook_load > 0.0)) return kNaN;
+  if (weight <= 100.0) {
+    const double root = std::sqrt(100.0 / static_hook_load);
+    return place == LiftPlace::onshore ? 1.10 : place == LiftPlace::inshore ? 1.07 + 0.05 * root : 1.0 + 0.25 * root;
+  }
+  const Row& row = *std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& r) { return weight <= r.up_to; });
+  return place == LiftPlace::onshore ? row.onshore : place == LiftPlace::inshore ? row.inshore : row.offshore;
+}
+
+std::string loads_part(const ReportData& data, const RunView& view) {
+  const std::vector<const WireSpec*> wires = hoist_wires(data.specification);
+  const BodySpec* load = load_of(data.specification);
+  std::string out;
+  if (load && !wires.empty() && !data.trajectory.static_poses.empty()) {
+    double hook_load = 0.0;
+    for (std::size_t p = 0; p < view.run().phases.size(); ++p) {
+      if (view.run().phases[p].stage != PhaseSpec::Stage::hanging) continue;
+      const PhaseLoad at = phase_load(view, wires, p);
+      hook_load = std::max({hook_load, at.static_start, at.static_end});
+    }
+    const double weight = load->mass * kGravity;
+    out += fmt::format(
+        "<p>Gross weight W of the load {} t (the mass in the case; no contingency is added: 0027/ND asks for 1.03 on a "
+        "weighed weight, 1.05 on class A, 1.10 on class B and C). Static hook load SHL {} t, the largest of the "
+        "hanging "
+        "phases in calm water. Winch limits of the falls together {} t, breaking loads {} t. {}</p>",
+        tonnes(weight), tonnes(hook_load), tonnes(sum_of(wires, &WireSpec::tension_max)),
+        tonnes(sum_of(wires, &WireSpec::breaking_load)),
+        "The case gives no capacity curve of the crane; compare the dynamic hook load with it at the radius of each "
+        "phase.");
+    out += daf_table(data, weight, hook_load) + "<h3>By phase</h3>" + phase_table(view, wires);
+  }
+  return out + offset_table(data, view);
+}
+
+}  // namespace stillhook

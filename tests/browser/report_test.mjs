@@ -1,0 +1,191 @@
+// Opens a report from the disk as a reader would and tries everything in it:
+//   node report_test.mjs CHROMIUM REPORT.html [FOLDER for pictures]
+// Ends with 0, or with 1 and one line for each thing that is wrong.
+
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Chromium } from "./chromium.mjs";
+import { faintTexts, overlaps } from "./layout.mjs";
+
+const [program, report, pictures] = process.argv.slice(2);
+const faults = [];
+const check = (holds, what) => {
+  if (!holds) faults.push(what);
+};
+const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance;
+
+/** The pixels of the picture, coarsely: the sum over a grid of 16 x 16 cells, to tell two pictures apart. */
+const FINGERPRINT = `(() => {
+  const source = document.querySelector("#stage canvas");
+  const small = document.createElement("canvas");
+  small.width = small.height = 64;
+  const context = small.getContext("2d");
+  context.drawImage(source, 0, 0, 64, 64);
+  return [...context.getImageData(0, 0, 64, 64).data];
+})()`;
+const difference = (a, b) => a.reduce((sum, v, i) => sum + Math.abs(v - b[i]), 0) / a.length;
+
+/** Where the cursors of time stand: share of the timeline, and of each plot that is drawn. */
+const CURSORS = `(() => {
+  const { clock } = stillhook;
+  const share = (clock.time - clock.start) / (clock.end - clock.start);
+  const range = document.querySelector("input.cursor");
+  const plots = [...document.querySelectorAll(".live")].filter((e) => e.querySelector(".u-over")).map((e) => {
+    const over = e.querySelector(".u-over").getBoundingClientRect();
+    const now = e.querySelector(".now").getBoundingClientRect();
+    return (now.left + now.width / 2 - over.left) / over.width;
+  });
+  return { share, rail: (range.value - range.min) / (range.max - range.min), plots };
+})()`;
+
+async function checkCursors(page, what) {
+  const { share, rail, plots } = await page.evaluate(CURSORS);
+  check(near(rail, share, 1e-3), `${what}: the timeline's cursor stands at ${rail}, not at ${share}`);
+  check(plots.length >= 1, `${what}: no plot is drawn`);
+  for (const at of plots) check(near(at, share, 0.005), `${what}: a plot's cursor stands at ${at}, not at ${share}`);
+}
+
+async function checkScrubbing(page) {
+  const { start, end } = await page.evaluate("({ start: stillhook.clock.start, end: stillhook.clock.end })");
+  const rail = await page.evaluate(`(() => { const rail = document.querySelector(".rail");
+    rail.scrollIntoView({ block: "center" });
+    const r = rail.getBoundingClientRect();
+    return { x: r.left, y: r.top + r.height / 2, width: r.width }; })()`);
+  const seen = [];
+  for (const share of [0.1, 0.5, 0.85]) {
+    await page.click(rail.x + share * rail.width, rail.y);
+    await page.settle();
+    const time = await page.evaluate("stillhook.clock.time");
+    check(near((time - start) / (end - start), share, 0.01), `a click at ${share} of the timeline leads to ${time} s`);
+    await checkCursors(page, `after a click at ${share}`);
+    const picture = await page.evaluate(FINGERPRINT);
+    if (seen.length) check(difference(picture, seen.at(-1)) > 0.5, `the scene does not change up to ${share}`);
+    seen.push(picture);
+  }
+}
+
+/** The scene's bodies stand where the run has them, the sea is the run's own. */
+async function checkTruth(page) {
+  const wrong = await page.evaluate(`(() => {
+    const { payload, clock, scene, elevation } = stillhook;
+    const wrong = [];
+    const wave = payload.header.readings.find((r) => r.label === "wave");
+    for (const share of [0.02, 0.31, 0.77]) {
+      clock.set(clock.start + share * (clock.end - clock.start));
+      const place = payload.place(clock.time);
+      const sample = payload.time[place.i];
+      if (wave) {
+        const s = payload.header.series[wave.series];
+        const error = elevation(0, 0, sample) - payload.series(wave.series)[place.i];
+        if (!(Math.abs(error) < s.step + 1e-3)) wrong.push("sea at the origin is off by " + error + " m at " + sample + " s");
+      }
+      for (const { body, group } of scene.bodies)
+        for (const [k, axis] of ["x", "y", "z"].entries())
+          if (!(Math.abs(group.position[axis] - payload.value(body.pose[k], place)) < 1e-6)) wrong.push(body.name + "." + axis);
+    }
+    return wrong;
+  })()`);
+  for (const what of wrong) check(false, what);
+}
+
+async function checkContacts(page) {
+  const marks = await page.evaluate(`[...document.querySelectorAll(".mark")].map((m) => Number(m.dataset.at))`);
+  const known = await page.evaluate(`stillhook.payload.header.contacts.filter((c) => c.kind !== "at rest at the start").length`);
+  check((marks.length > 0) === (known > 0), `${known} contacts, but ${marks.length} marks`);
+  for (let i = 0; i < marks.length; ++i) {
+    const { x, y } = await page.evaluate(`(() => { const r = document.querySelectorAll(".mark")[${i}].getBoundingClientRect();
+      return { x: r.left + r.width / 2, y: r.top + r.height / 2 }; })()`);
+    await page.click(x, y);
+    await page.settle();
+    const { time, text } = await page.evaluate(`({ time: stillhook.clock.time, text: document.querySelector(".event").textContent })`);
+    check(near(time, marks[i], 1e-3), `contact mark ${i} leads to ${time} s, not to ${marks[i]} s`);
+    check(text.includes("m/s"), `contact mark ${i} says "${text}"`);
+  }
+  const link = await page.evaluate(`document.querySelector(".jump")?.closest("[data-time]").dataset.time ?? null`);
+  if (link === null) return;
+  await page.evaluate(`document.querySelector(".jump").click()`);
+  const time = await page.evaluate("stillhook.clock.time");
+  check(near(time, Number(link), 1e-2), `a time in the text leads to ${time} s, not to ${link} s`);
+}
+
+async function checkKeys(page) {
+  await page.evaluate(`stillhook.clock.set(stillhook.clock.start + 100), document.querySelector("#stage canvas").focus()`);
+  const after = async (key, more) => {
+    const before = await page.evaluate("stillhook.clock.time");
+    await page.key(key, more);
+    return (await page.evaluate("stillhook.clock.time")) - before;
+  };
+  check(near(await after("ArrowRight"), 5, 1e-6), "arrow right does not lead 5 s on");
+  check(near(await after("ArrowLeft", { shift: true }), -0.2, 1e-6), "shift and arrow left does not lead 0.2 s back");
+  await page.key("Home");
+  check(await page.evaluate("stillhook.clock.time === stillhook.clock.start"), "Home does not lead to the start");
+  await page.key(" ");
+  check(await page.evaluate("stillhook.clock.playing"), "space does not play");
+  await page.until("stillhook.clock.time > stillhook.clock.start + 1", 10);
+  await page.key(" ");
+  check(!(await page.evaluate("stillhook.clock.playing")), "space does not pause");
+  const view = await page.evaluate("stillhook.scene.camera.position.toArray()");
+  await page.key("4");
+  check((await page.evaluate("stillhook.scene.camera.position.toArray()")).some((v, i) => !near(v, view[i], 1)), "4 does not change the view");
+  await page.key("1");
+  await page.key("f");
+  check(await page.evaluate("stillhook.scene.followed !== null"), "F does not follow the load");
+  await page.key("f");
+  await page.key("h");
+  check(await page.evaluate(`document.querySelector("dialog").open`), "H does not show the keys");
+  await page.key("Escape");
+  // Tab alone reaches every control of the replay.
+  await page.evaluate(`document.querySelector("#stage canvas").focus()`);
+  const names = [];
+  for (let i = 0; i < 12; ++i) {
+    await page.key("Tab");
+    names.push(await page.evaluate(`document.activeElement.getAttribute("aria-label") ?? document.activeElement.textContent.slice(0, 40)`));
+  }
+  for (const wanted of ["Play (space)", "Speed of the replay", "Time of the replay"])
+    check(names.includes(wanted), `Tab does not reach "${wanted}": ${names.join(", ")}`);
+}
+
+const browser = await Chromium.launch(program);
+try {
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    const size = `${width} x ${height}`;
+    const page = await browser.open(width, height);
+    await page.go(pathToFileURL(resolve(report)).href);
+    await page.until(`document.documentElement.dataset.replay === "ready"`);
+    await page.settle();
+    check(await page.evaluate("stillhook.scene !== null"), `${size}: the scene is not there`);
+    await checkScrubbing(page);
+    if (width > 1000) {
+      await checkTruth(page);
+      await checkContacts(page);
+      await checkKeys(page);
+    }
+    // Every plot comes alive when it is scrolled to, and shows the same time.
+    await page.evaluate(`document.querySelectorAll("details").forEach((d) => (d.open = true))`);
+    const figures = await page.evaluate(`document.querySelectorAll("figure[data-plot]").length`);
+    for (let i = 0; i < figures; i += 2) {
+      await page.evaluate(`document.querySelectorAll("figure[data-plot]")[${i}].scrollIntoView()`);
+      await page.settle();
+    }
+    await page.until(`document.querySelectorAll("figure.is-live").length === ${figures}`);
+    await page.settle();
+    await checkCursors(page, `${size}, all plots`);
+    for (const what of await overlaps(page)) check(false, `${size}: ${what}`);
+    for (const what of await faintTexts(page)) check(false, `${size}: ${what}`);
+    for (const error of page.errors) check(false, `${size}: console: ${error}`);
+    const asked = page.requests.filter((url) => !url.startsWith("data:"));
+    check(asked.length === 1, `${size}: the page asked for ${asked.slice(1).join(", ")}`);
+    if (pictures) {
+      mkdirSync(pictures, { recursive: true });
+      await page.evaluate(`scrollTo(0, 0), stillhook.clock.set(stillhook.clock.start + 0.62 * (stillhook.clock.end - stillhook.clock.start))`);
+      await page.settle();
+      writeFileSync(join(pictures, `report-${width}.png`), await page.screenshot());
+    }
+    await page.close();
+  }
+} finally {
+  await browser.close();
+}
+for (const fault of faults) console.error(fault);
+process.exit(faults.length ? 1 : 0);
