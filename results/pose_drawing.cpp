@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "results/html.h"
 
@@ -149,6 +150,15 @@ double nice_length(double wanted) {
   return power * (wanted < 2.0 * power ? 1.0 : wanted < 5.0 * power ? 2.0 : 5.0);
 }
 
+/// Nothing would be seen to have moved: less than 0.1 m and 0.1 deg.
+bool looks_like(const StaticPose& a, const StaticPose& b) {
+  for (std::size_t i = 0; i < a.bodies.size() && i < b.bodies.size(); ++i)
+    if ((a.bodies[i].p - b.bodies[i].p).norm() > 0.1 ||
+        log_rotation(a.bodies[i].R.transpose() * b.bodies[i].R).norm() > 0.1 * std::numbers::pi / 180.0)
+      return false;
+  return true;
+}
+
 struct Extent {
   Vector3 low = Vector3::Constant(1e9), high = Vector3::Constant(-1e9);
   void add(const Vector3& p) {
@@ -162,6 +172,8 @@ Extent extent_of(const Scene& scene, const std::vector<StaticPose>& poses, const
   e.add(target);
   for (const StaticPose& pose : poses)
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      // A barge that is towed away may leave the drawing.
+      if (scene.bodies[i].kind == SceneBody::Kind::vessel && &pose != &poses.front()) continue;
       const int index = static_cast<int>(i);
       for (const Vector3& v : scene.bodies[i].mesh.vertices) e.add(world(pose, index, v));
       for (const SceneBody::Member& m : scene.bodies[i].members)
@@ -184,7 +196,10 @@ std::vector<std::string> draw_poses(const Scene& scene, const std::vector<Static
   const double plan_bottom = kTitle + elevation_height + kGap + plan_height, height = plan_bottom + 22.0;
   const double bar = nice_length((e.high.x() - e.low.x()) / 5.0);
   std::vector<std::string> drawings;
+  const StaticPose* before = nullptr;
   for (const StaticPose& pose : poses) {
+    if (before && looks_like(*before, pose)) continue;
+    before = &pose;
     const std::string name = escape_html(readable_name(pose.name));
     std::string svg = fmt::format(
         "<svg class=\"pose\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "

@@ -8,7 +8,7 @@
 
 namespace stillhook {
 
-/// One <svg> a pose, all to the same scale and about the same place. `target` (m, in W) is marked with a cross.
+/// One <svg> a pose, all to the same scale and about the same place; a pose that looks like the one before is left out. `target` (m, in W) is marked with a cross.
 std::vector<std::string> draw_poses(const Scene& scene, const std::vector<StaticPose>& poses, const Vector3& target);
 
 }  // namespace stillhook

@@ -28,7 +28,7 @@ Rows rows_of(const std::vector<const BasisEntry*>& entries) {
   for (const BasisEntry* e : entries) {
     if (const std::string now = heading_of(e->key); now != heading || rows.empty()) {
       heading = now;
-      if (!now.empty()) rows.push_back({escape_html(readable_name(now))});
+      if (!now.empty()) rows.push_back({escape_html(readable_name(now))});  // "bodies.boom port"
     }
     const std::size_t skip = heading.empty() ? 0 : heading.size() + 1;
     rows.push_back({"<code>" + escape_html(e->key.substr(skip)) + "</code>", escape_html(e->value),

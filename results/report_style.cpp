@@ -49,7 +49,8 @@ table{border-collapse:collapse;font-size:.86rem;line-height:1.35;min-width:100%}
 th,td{padding:.32rem .55rem;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}
 thead th{font-weight:600;border-bottom:2px solid #7c8894;vertical-align:bottom}
 tbody th{font-weight:500}
-td.n,th.n{text-align:right;white-space:nowrap}
+td.n,th.n{text-align:right}
+td.n{white-space:nowrap}
 tr.group th{background:var(--soft);font-weight:600}
 .pass{color:var(--pass);font-weight:650}
 .fail{color:var(--fail);font-weight:650}

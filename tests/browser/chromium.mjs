@@ -127,7 +127,7 @@ class Page {
   }
 
   /** Waits until an expression is true. */
-  async until(expression, seconds = 20) {
+  async until(expression, seconds = 120) {
     const end = Date.now() + 1000 * seconds;
     while (!(await this.evaluate(expression))) {
       if (Date.now() > end) throw new Error(`not true within ${seconds} s: ${expression}\n${this.errors.join("\n")}`);

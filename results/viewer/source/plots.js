@@ -7,6 +7,7 @@ import { element } from "./element.js";
 const COLOURS = ["#0072b2", "#d55e00", "#00805c", "#aa4499", "#806000", "#404040"];
 const LIMIT = "#b00020";
 const FONT = '12px system-ui, "Segoe UI", Helvetica, Arial, sans-serif';
+const TIME_STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400]; // s
 const sync = uPlot.sync("report");
 
 function decimals(step) {
@@ -28,7 +29,7 @@ function axisRange(plot) {
       b = Math.max(b, v);
     }
     const room = Math.max(0.04 * (b - a), 1e-3);
-    return [a - room, b + room];
+    return [a - room, b + Math.max(room, 0.12 * (b - a))]; // the phases' names stand above the lines
   };
 }
 
@@ -113,7 +114,7 @@ export class LivePlot {
       },
       scales: { x: { time: false, range: (u, a, b) => [a, b] }, y: { range: axisRange(plot) } },
       axes: [
-        { font: FONT, stroke: "#1c2329", grid: { show: false }, ticks: { stroke: "#7c8894", size: 4 }, size: 34, gap: 3,
+        { font: FONT, stroke: "#1c2329", incrs: TIME_STEPS, grid: { show: false }, ticks: { stroke: "#7c8894", size: 4 }, size: 34, gap: 3,
           values: (u, splits) => splits.map(clockText) },
         { font: FONT, stroke: "#1c2329", label: plot.y_label, labelFont: FONT, labelSize: 18, size: 56, gap: 4,
           grid: { stroke: "#d4dae0", width: 1 }, ticks: { show: false },
@@ -134,6 +135,7 @@ export class LivePlot {
     };
     this.plot = new uPlot(options, [payload.time, ...plot.lines.map((line) => payload.series(line.series))], root);
     this.plot.over.append(this.now);
+    this.#showTime();
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", `${plot.title}, ${plot.y_label}`);
     if (off.length) root.dataset.limits = String(off.length);

@@ -1,0 +1,21 @@
+# Simulates CASE into RUN and tries its report in CHROMIUM. Skips where there is no browser, no node or no viewer.
+foreach(needed NODE CHROMIUM)
+  if(NOT ${needed})
+    message("SKIPPED: ${needed} is not installed (./setup installs it)")
+    return()
+  endif()
+endforeach()
+file(SIZE ${VIEWER} size)
+if(size EQUAL 0)
+  message("SKIPPED: the program was built without npm, its reports have no replay")
+  return()
+endif()
+execute_process(COMMAND ${PROGRAM} simulate ${CASE} --out ${RUN} --force --quiet --set solver.max_duration_s=420
+  RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE error)
+if(NOT code EQUAL 0 AND NOT code EQUAL 3)  # 3: a limit is violated, which a run cut short may do
+  message(FATAL_ERROR "stillhook simulate ended with ${code}: ${error}")
+endif()
+execute_process(COMMAND ${NODE} ${TEST} ${CHROMIUM} ${RUN}/report.html ${RUN}/pictures RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "the report of ${CASE} has faults, named above")
+endif()
