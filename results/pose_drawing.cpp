@@ -136,9 +136,15 @@ std::string draw_panel(const Scene& scene, const StaticPose& pose, const Vector3
     out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#dbe8ee\"/>",
                        corner.x(), water, top.x() - corner.x(), std::max(0.0, corner.y() - water));
   }
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    out += draw_body(scene.bodies[i], pose, static_cast<int>(i), view, f);
-  out += draw_surfaces(scene, pose, view, f) + draw_lines(scene, pose, view, f);
+  for (const bool vessels : {true, false}) {  // what is lifted lies above what floats
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const SceneBody::Kind kind = scene.bodies[i].kind;
+      if ((kind == SceneBody::Kind::crane || kind == SceneBody::Kind::vessel) == vessels)
+        out += draw_body(scene.bodies[i], pose, static_cast<int>(i), view, f);
+    }
+    if (vessels) out += draw_surfaces(scene, pose, view, f);
+  }
+  out += draw_lines(scene, pose, view, f);
   const Point cross = f(project(target, view));
   return out + fmt::format("<path d=\"M{:.1f} {:.1f}h10m-5 -5v10\" stroke=\"#00603a\" fill=\"none\"/></svg>",
                            cross.x() - 5.0, cross.y());

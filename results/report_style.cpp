@@ -84,7 +84,7 @@ a:focus-visible,summary:focus-visible,.scroll:focus-visible{outline:3px solid #0
 @media(max-width:900px){#overview{display:flex;flex-direction:column;align-items:stretch}.judgement{display:contents}.judgement .verdict{order:-2;margin-top:.7rem}.replay{order:-1}.judgement .tiles{margin-top:1rem}.replay .phases{margin:.2rem 0}}
 @media(max-width:480px){main,header,footer{padding-left:.9rem;padding-right:.9rem}h1{font-size:1.35rem}.tiles{grid-template-columns:1fr 1fr}.tile b{font-size:1.15rem}table{min-width:36rem}}
 @page{size:A4;margin:14mm 13mm}
-@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}nav{display:none}.scroll{overflow:visible}table{font-size:7.6pt}th,td{padding:.18rem .3rem}td.n,th.n{white-space:normal}tr,.tile,.verdict{break-inside:avoid}h2,h3{break-after:avoid}svg.plot{min-width:0}thead{display:table-header-group}
+@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}nav{display:none}.scroll{overflow:visible}table{font-size:7.6pt}th,td{padding:.18rem .3rem}td.n,th.n{white-space:normal}td small,th small{font-size:inherit}.judgement .tiles{grid-template-columns:repeat(5,1fr)}.poses{grid-template-columns:1fr 1fr 1fr}tr,.tile,.verdict,.poses figure{break-inside:avoid}h2,h3{break-after:avoid}svg.plot{min-width:0}thead{display:table-header-group}
 .track i,.phases li>b,.verdict,tr.group th,pre{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 }

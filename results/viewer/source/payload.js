@@ -3,7 +3,9 @@
 const GAP = 65535;
 
 async function inflate(base64) {
-  const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const text = atob(base64);
+  const packed = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -53,7 +55,9 @@ export class Payload {
     const q = new Uint16Array(count);
     for (let i = 0; i < count; ++i) q[i] = unzigzag(this.blocks[at + i] | (this.blocks[at + count + i] << 8));
     integrate(q, order);
-    return Float32Array.from(q, (v) => (v === GAP ? NaN : low + step * v));
+    const values = new Float32Array(count);
+    for (let i = 0; i < count; ++i) values[i] = q[i] === GAP ? NaN : low + step * q[i];
+    return values;
   }
 
   floats(at, count) {

@@ -127,13 +127,14 @@ export class ReplayScene {
     this.camera.updateMatrixWorld();
     const back = this.camera.matrixWorldInverse.copy(this.camera.matrixWorld).invert();
     const tan = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    const room = this.camera.aspect < 1.6 ? 1.02 : VIEWS[index].room;
     let distance = 10;
     for (const x of [this.box.min.x, this.box.max.x])
       for (const y of [this.box.min.y, this.box.max.y])
         for (const z of [Math.max(this.box.min.z, -30), this.box.max.z]) {
           const p = new THREE.Vector3(x, y, z).applyMatrix4(back);
           const needed = Math.max(Math.abs(p.x) / (tan * this.camera.aspect), Math.abs(p.y) / tan) + p.z + 1;
-          distance = Math.max(distance, VIEWS[index].room * needed);
+          distance = Math.max(distance, room * needed);
         }
     this.camera.position.copy(this.middle).addScaledVector(direction, distance);
     this.current = index;
