@@ -78,6 +78,19 @@ const Table& move_table() {
          "Relative speeds at equal times between the two zeros.")
         .only_when("profile", {"knots"})
         .require();
+    using Shaper = ProfileSpec::Shaper;
+    t.choice<decltype([](S& s) -> Shaper& { return s.profile.shaper; }), Shaper>(
+        "shaper", {}, {{"none", Shaper::none}, {"zv", Shaper::zv}, {"zvd", Shaper::zvd}},
+        "Shapes the speed so that no swing is left: zv takes half a period more, zvd a whole one and bears a wrong "
+        "period better.");
+    t.number(
+         "shaper_period_s", [](S& s) -> double& { return s.profile.shaper_period; }, unit::s, not_negative(),
+         "Natural period of the swing; 0 = of the pendulum on the hoist falls at their mean length during the move.")
+        .only_when("shaper", {"zv", "zvd"});
+    t.number(
+         "shaper_damping", [](S& s) -> double& { return s.profile.shaper_damping; }, unit::one, between(0.0, 0.9),
+         "Damping ratio of the swing.")
+        .only_when("shaper", {"zv", "zvd"});
     t.number("delay_s", &S::delay, unit::s, not_negative(), "After the start of the phase.");
     t.boolean("background", &S::background, "The phase may end before this move does.");
     return t.build();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/statics.h"
 
@@ -21,6 +22,38 @@ void check_limits_of(const DriveSpec& drive, const RateProfile& profile, const s
                              "drive '" + drive.name + "' is limited to " + std::to_string(drive.acceleration_max) +
                                  " per s2, the profile needs " + std::to_string(profile.peak_acceleration()) +
                                  ": a longer ramp or a lower speed is needed");
+}
+
+Vector3 point_in_world(const Model& model, const StaticPose& pose, const std::string& body, const Vector3& p_B) {
+  const int i = model.body_index(body);
+  return i == kWorld ? p_B : pose.bodies[static_cast<std::size_t>(i)] * p_B;
+}
+
+/// Mean length of the hoist falls in a static pose, m; 0 if there are none.
+double fall_length(const Model& model, const StaticPose& pose) {
+  double sum = 0.0;
+  int count = 0;
+  for (const WireSpec& wire : model.specification().wires) {
+    if (wire.role != WireSpec::Role::hoist) continue;
+    sum +=
+        (point_in_world(model, pose, wire.from, wire.point_from) - point_in_world(model, pose, wire.to, wire.point_to))
+            .norm();
+    ++count;
+  }
+  return count ? sum / count : 0.0;
+}
+
+/// The move's profile with the period of its shaper worked out if it is not given: of the pendulum on the hoist falls,
+/// as long as they are on average before and after the move.
+ProfileSpec with_period(const Model& model, ProfileSpec spec, const StaticPose& before, const StaticPose& after,
+                        const std::string& entry) {
+  if (spec.shaper == ProfileSpec::Shaper::none || spec.shaper_period > 0.0) return spec;
+  const double length = 0.5 * (fall_length(model, before) + fall_length(model, after));
+  if (!(length > 0.0))
+    throw SpecificationError(entry, "shaper_period",
+                             "must be > 0 s, got 0: there is no hoist wire whose pendulum it could be taken from");
+  spec.shaper_period = 2.0 * std::numbers::pi * std::sqrt(length / model.specification().sea.gravity);
+  return spec;
 }
 
 // Moves the drives of `state` to the end of the phase and returns each move's travel.
@@ -51,8 +84,9 @@ double Operation::planned_duration() const {
 
 namespace {
 
-// The phase with its moves, whose travels are known.
-Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<double>& travels) {
+// The phase with its moves, whose travels are known, as are the poses that it starts from and ends in.
+Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<double>& travels,
+                  const StaticPose& before, const StaticPose& after) {
   Phase phase;
   phase.name = spec.name;
   phase.stage = spec.stage;
@@ -70,7 +104,8 @@ Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<d
     m.drive = model.drive_index(move.drive);
     m.delay = move.delay;
     m.background = move.background;
-    if (std::abs(travels[i]) > 0.0) m.profile = RateProfile(move.profile, travels[i], move.speed);
+    if (std::abs(travels[i]) > 0.0)
+      m.profile = RateProfile(with_period(model, move.profile, before, after, entry), travels[i], move.speed);
     check_limits_of(model.specification().drives[m.drive], m.profile, entry);
     if (!m.background) phase.duration = std::max(phase.duration, m.delay + m.profile.duration());
     phase.moves.push_back(std::move(m));
@@ -98,8 +133,9 @@ Operation build_operation(const Model& model) {
     state.phase = static_cast<int>(operation.phases.size());
     const std::vector<double> travels =
         spec.moves.empty() ? std::vector<double>{} : work_out_travels(model, spec, state);
-    operation.phases.push_back(timed_phase(model, spec, travels));
     operation.static_poses.push_back(static_pose(model, state, spec.name));
+    const auto after = operation.static_poses.end() - 1, before = after - 1;
+    operation.phases.push_back(timed_phase(model, spec, travels, *before, *after));
   }
   return operation;
 }
@@ -119,7 +155,8 @@ Operation retimed_operation(const Model& model, const OperationSpec& spec, const
   for (std::size_t i = 0; i < spec.phases.size(); ++i) {
     std::vector<double> travels;
     for (const Move& move : like.phases[i].moves) travels.push_back(move.profile.travel());
-    operation.phases.push_back(timed_phase(model, spec.phases[i], travels));
+    operation.phases.push_back(
+        timed_phase(model, spec.phases[i], travels, like.static_poses[i], like.static_poses[i + 1]));
   }
   return operation;
 }

@@ -125,6 +125,12 @@ void set_options(Ipopt::OptionsList& list, const SolverRun& run) {
   list.SetNumericValue("acceptable_constr_viol_tol", run.tolerance());
   list.SetIntegerValue("acceptable_iter", 5);
   list.SetIntegerValue("max_iter", 1000000);  // the budget of evaluations ends it
+  // Measured on the Hock-Schittkowski problems and a sway problem: gradients of order one at the start and a longer
+  // memory take a fifth fewer evaluations, and a start near a bound should stay there.
+  list.SetNumericValue("nlp_scaling_max_gradient", 1.0);
+  list.SetIntegerValue("limited_memory_max_history", 20);
+  list.SetNumericValue("bound_push", 1e-3);
+  list.SetNumericValue("bound_frac", 1e-3);
   // The bounds are those of the physics: not even a little beyond them.
   list.SetNumericValue("bound_relax_factor", 0.0);
 }
