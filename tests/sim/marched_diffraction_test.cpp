@@ -1,7 +1,7 @@
 // Diffraction by a fixed hull in a regular wave, marched in time, against the frequency domain.
 //
-// The march of rankine/panel_march.h driven by the normal velocity of the incident wave on every panel, v = -d(phi_I)/dn,
-// in place of six modes; the local part by its own rate of change:
+// The march of rankine/panel_march.h driven by the normal velocity of the incident wave on every panel, v =
+// -d(phi_I)/dn, in place of six modes; the local part by its own rate of change:
 //
 //   eta_t = P (phi - R v) - 2 nu eta + (nu^2/g) phi,   phi_t = -g eta,
 //   F = rho int n (C q + hull_response v)_t dS,         q = P (phi - R v)
@@ -31,8 +31,7 @@ Vector6c marched(const PanelHull& hull, const PanelMethodOptions& options, doubl
   const SurfacePanels surface = free_surface(panels, grid_of(band));
   const Beach beach = beach_of(band, options);
   VectorX nu(surface.size());
-  for (int i = 0; i < surface.size(); ++i)
-    nu[i] = beach.strength * w * std::pow(surface.distance[i] / beach.width, 2);
+  for (int i = 0; i < surface.size(); ++i) nu[i] = beach.strength * w * std::pow(surface.distance[i] / beach.width, 2);
   const VectorX weight = panel_weights(panels, options.density);
   const double g = options.gravity, period = 2.0 * std::numbers::pi / w;
   constexpr int kSteps = 80, kPeriods = 12;  // steps of a period; the transient has left by the last one

@@ -81,7 +81,9 @@ TEST_CASE("linear estimates of the reference lift, load hanging", "[validation][
   CHECK(small.tip.most == Approx(0.53).epsilon(0.1));
   CHECK(large.tip.least == Approx(2.0).epsilon(0.1));
   CHECK(large.tip.most == Approx(2.8).epsilon(0.1));
-  const auto quasi_static = [](const Wave& wave, double tip) { return wave.frequency * wave.frequency * tip / kGravity; };
+  const auto quasi_static = [](const Wave& wave, double tip) {
+    return wave.frequency * wave.frequency * tip / kGravity;
+  };
   CHECK(quasi_static(kSmall, small.tip.least) == Approx(0.011).epsilon(0.1));
   CHECK(quasi_static(kSmall, small.tip.most) == Approx(0.017).epsilon(0.1));
   CHECK(quasi_static(kLarge, large.tip.least) == Approx(0.08).epsilon(0.1));

@@ -1,11 +1,11 @@
 // A sphere released above its floating position: radiation from the panel method, through the state space, with the
 // pressure on the actual wetted surface, in time.
 //
-// IEA OES Task 10 (Wendt et al. 2019, J. Mar. Sci. Eng. 7, 379): radius 5 m, 261.8 t, fresh water of 1000 kg/m3, g 9.81,
-// released 1 m above rest; six codes. Beside their band the exact answer of linear radiation with that sphere's own
-// hydrostatics: Cummins' equation integrated with dt 0.005 s, K(t) from the multipole solution's B(w) for 47 Ka from
-// 0.05 to 10 (Hulme 1982), by a program of its own; its first trough is 0.2 % smaller than all six codes have it, and
-// -0.8670 m with a linear spring.
+// IEA OES Task 10 (Wendt et al. 2019, J. Mar. Sci. Eng. 7, 379): radius 5 m, 261.8 t, fresh water of 1000 kg/m3,
+// g 9.81, released 1 m above rest; six codes. Beside their band the exact answer of linear radiation with that sphere's
+// own hydrostatics: Cummins' equation integrated with dt 0.005 s, K(t) from the multipole solution's B(w) for 47 Ka
+// from 0.05 to 10 (Hulme 1982), by a program of its own; its first trough is 0.2 % smaller than all six codes have it,
+// and -0.8670 m with a linear spring.
 
 #include <array>
 #include <catch2/catch.hpp>
