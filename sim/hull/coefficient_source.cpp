@@ -22,7 +22,7 @@ namespace stillhook {
 namespace {
 
 // Changes whenever the same input would give other numbers.
-constexpr const char* kMethodVersion = "rankine 1";
+constexpr const char* kMethodVersion = "rankine 2";
 
 using Set = std::shared_ptr<const HydrodynamicCoefficients>;
 

@@ -69,11 +69,13 @@ class Computation {
     double done = 0.0, all = 0.0;
     for (const PanelBand& band : report_.bands) all += static_cast<double>(band.frequencies.size());
     for (PanelBand& band : report_.bands) {
-      tell(done / all, band);
-      solve(band);
-      done += static_cast<double>(band.frequencies.size());
+      const double share = static_cast<double>(band.frequencies.size());
+      solve(band, [&](double within) { tell((done + within * share) / all, band); });
+      done += share;
     }
     add_froude_krylov();
+    if (hulls_.size() == 1) take_radiated_damping();
+    keep_wanted_headings();
     if (report_.gap_rise > kGapResonance) {
       std::ostringstream text;
       text.precision(3);
@@ -102,7 +104,12 @@ class Computation {
     set_.waterline = hulls_[0].waterline;
     for (const Placement& p : layout_.hulls) set_.length = std::max({set_.length, p.length, p.breadth});
     set_.excitation.modes = modes_;
-    const int headings = headings_for(layout_, options_);
+    // As many as the energy needs that is radiated all around, a multiple of those that are wanted.
+    PanelMethodOptions around = options_;
+    around.headings = 0;
+    const int wanted = headings_for(layout_, options_);
+    headings_kept_ = (headings_for(layout_, around) + wanted - 1) / wanted;
+    const int headings = wanted * headings_kept_;
     for (int h = 0; h < headings; ++h) set_.excitation.headings.push_back(2.0 * std::numbers::pi * h / headings);
     for (const PanelBand& band : report_.bands)
       for (std::size_t f = 0; f + 1 < band.frequencies.size(); ++f) {
@@ -149,8 +156,9 @@ class Computation {
     set_.frequency.push_back(std::move(zero));
   }
 
-  /// A, B and X_D of one part of the band.
-  void solve(PanelBand& band) {
+  /// A, B and X_D of one part of the band. `tell_share` hears the share of it that is done; ends it by throwing.
+  void solve(PanelBand& band, const std::function<void(double)>& tell_share) {
+    tell_share(0.0);
     const HullPanels panels = panels_of(hulls_, layout_, band.panel_length);
     SurfacePanels surface = free_surface(panels, grid_of(band));
     mark_gap(layout_, panels, surface);
@@ -159,7 +167,12 @@ class Computation {
     const std::size_t count = band.frequencies.size();
     MatrixX A_inf = MatrixX::Zero(modes_, modes_);
     std::vector<Matrix<Complex>> A(count, Matrix<Complex>::Zero(modes_, modes_));
-    for (const BoundaryClass& c : boundary_problem(panels, surface)) {
+    // Influences of all classes are computed together; after that each class is a share of the rest.
+    const std::vector<BoundaryClass> classes = boundary_problem(panels, surface);
+    constexpr double kInfluences = 0.4;
+    int solved = 0;
+    for (const BoundaryClass& c : classes) {
+      tell_share(kInfluences + (1.0 - kInfluences) * solved++ / static_cast<double>(classes.size()));
       const ClassModes modes = modes_of(panels, layout_, c.parity);
       if (modes.modes.empty()) continue;
       scatter<double>(inertia_of(c.local, modes, weight), modes.modes, A_inf);
@@ -259,6 +272,44 @@ class Computation {
     }
   }
 
+  /// B from the energy that the waves carry away, w^3/(4 pi rho g^3) int X_i conj X_j db (Newman 1962), in place of that
+  /// of the pressure on the hull, which counts what beach and panels take near the hull as well. Both must agree; where
+  /// they do not, the pressure's stays and the self-check "haskind" refuses the set.
+  void take_radiated_damping() {
+    const std::vector<SelfCheck> checks = self_checks(set_);
+    const auto balance = std::find_if(checks.begin(), checks.end(), [](const auto& c) { return c.key == "haskind"; });
+    if (balance == checks.end()) return;
+    report_.energy_balance = balance->value;
+    if (!balance->passed()) return;
+    const ExcitationTable& X = set_.excitation;
+    const int headings = static_cast<int>(X.headings.size());
+    for (FrequencyCoefficients& at : set_.frequency) {
+      const auto f = std::find(X.frequencies.begin(), X.frequencies.end(), at.frequency);
+      if (f == X.frequencies.end()) continue;  // A(0)
+      const Eigen::Map<const Matrix<Complex>> x(&X.at(static_cast<int>(f - X.frequencies.begin()), 0, 0), modes_, headings);
+      at.B = std::pow(at.frequency / options_.gravity, 3) / (2.0 * options_.density * headings) * (x * x.adjoint()).real();
+    }
+    std::ostringstream text;
+    text.precision(2);
+    text << "; damping from the radiated energy, from which that of the pressure differs by "
+         << 100.0 * balance->value << " % at most (" << balance->detail << ")";
+    set_.description += text.str();
+  }
+
+  void keep_wanted_headings() {
+    if (headings_kept_ == 1) return;
+    ExcitationTable kept;
+    kept.modes = modes_;
+    kept.frequencies = set_.excitation.frequencies;
+    for (std::size_t h = 0; h < set_.excitation.headings.size(); h += headings_kept_)
+      kept.headings.push_back(set_.excitation.headings[h]);
+    for (std::size_t f = 0; f < kept.frequencies.size(); ++f)
+      for (std::size_t h = 0; h < kept.headings.size(); ++h)
+        for (int i = 0; i < modes_; ++i)
+          kept.value.push_back(set_.excitation.at(static_cast<int>(f), static_cast<int>(h) * headings_kept_, i));
+    set_.excitation = std::move(kept);
+  }
+
   /// A turn that moves no water, as of a body of revolution about its axis: what the panels leave of it is noise.
   void clear_still(MatrixX& M) const {
     for (int i = 0; i < modes_; ++i)
@@ -288,6 +339,7 @@ class Computation {
   MatrixX to_middle_;
   int modes_;
   MatrixX A_inf_middle_;
+  int headings_kept_ = 1;    // every n-th heading is wanted
   MatrixX scale_;            // A(0) about the middles
   std::vector<bool> still_;  // of each mode
   HydrodynamicCoefficients set_;

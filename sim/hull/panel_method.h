@@ -6,7 +6,8 @@
 // cells are a share of its shortest wave and whose beach is as wide as its longest one, so that long and short waves
 // cost the same. A(0) and A_inf are exact limits of the same panels.
 //
-//   A - A_inf and B from the discrete system at each frequency
+//   A - A_inf and B from the discrete system at each frequency; B of a lone hull from the energy of its waves,
+//   B_ij = w^3/(4 pi rho g^3) int Re(X_i conj X_j) db                                              (Newman 1962)
 //   X = X_FK + X_D,  X_D,i = i w rho int phi_i d(phi_I)/dn dS     (Haskind 1957; Newman 1962), phi_I of a unit wave
 //
 // X turns with the phase of the wave along the hull and needs more frequencies than the potentials do: between the
@@ -62,6 +63,9 @@ struct PanelMethodReport {
   // Two hulls: the water between them rises `gap_rise` times the motion of the hull that moves, at most, at gap_frequency
   // (rad/s). More than kGapResonance times is a resonance of the gap, whose height potential theory exaggerates.
   double gap_rise = 0.0, gap_frequency = 0.0;
+  // One hull: largest difference between the damping of the pressure and that of the radiated energy, as the self-check
+  // "haskind" measures it, 1. The set has the latter.
+  double energy_balance = 0.0;
   double asymmetry = 0.0;         // largest |A_ij - A_ji| / sqrt(A_ii A_jj) before both are replaced by their mean
 };
 

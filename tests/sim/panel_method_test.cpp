@@ -91,8 +91,8 @@ TEST_CASE("floating hemisphere against the exact solution", "[rankine][slow]") {
     CHECK(at.A(2, 2) / mass == Approx(exact.A_heave).epsilon(0.01));
     CHECK(at.A(0, 0) / mass == Approx(exact.A_surge).epsilon(0.01));
     CHECK(at.A(1, 1) / mass == Approx(exact.A_surge).epsilon(0.01));
-    CHECK(at.B(2, 2) / (mass * at.frequency) == Approx(exact.B_heave).margin(0.02 * truth::kMostHeaveDamping));
-    CHECK(at.B(0, 0) / (mass * at.frequency) == Approx(exact.B_surge).margin(0.02 * truth::kMostSurgeDamping));
+    CHECK(at.B(2, 2) / (mass * at.frequency) == Approx(exact.B_heave).margin(0.01 * truth::kMostHeaveDamping));
+    CHECK(at.B(0, 0) / (mass * at.frequency) == Approx(exact.B_surge).margin(0.01 * truth::kMostSurgeDamping));
     // A sphere that turns about its centre moves no water.
     CHECK(std::abs(at.A(5, 5)) < 1e-3 * mass * kRadius * kRadius);
   }
@@ -110,9 +110,8 @@ TEST_CASE("box hull against frequency-domain codes", "[rankine][slow]") {
     for (int i = 0; i < 6; ++i) {
       const truth::BoxHull& exact = truth::kBoxHull[f];
       INFO("omega = " << exact.frequency << ", mode " << i + 1);
-      // Heave and pitch 3 %, surge, sway and yaw 5 %; roll, whose damping is the most sensitive to panels (the two
-      // meshes of the reference differ by 2.5 %), 5 %.
-      const double tolerance = i == 2 || i == 4 ? 0.03 : 0.05;
+      // Heave, roll and pitch 3 %, surge, sway and yaw 5 %; the two meshes of the reference differ by up to 2.5 %.
+      const double tolerance = i >= 2 && i <= 4 ? 0.03 : 0.05;
       CHECK(c.frequency[f + 1].A(i, i) == Approx(exact.A[i]).epsilon(tolerance));
       CHECK(c.frequency[f + 1].B(i, i) == Approx(exact.B[i]).epsilon(tolerance));
     }
