@@ -158,8 +158,11 @@ void fill_estimates(const EstimateInput& in, Identification& result) {
     const auto row = static_cast<Eigen::Index>(i);
     double influence = prior(row, row);
     for (const ResidualSeries& s : series) influence += s.J.col(row).squaredNorm();
-    if (held[i] || influence > 1.0) continue;
-    result.estimates[i].no_influence = held[i] = true;
+    if (influence > 1.0) continue;
+    FitEstimate& e = result.estimates[i];
+    e.no_influence = held[i] = true;
+    e.at_bound = false;
+    e.value = e.start;  // rounding may have taken it anywhere
   }
   const Uncertainty u = uncertainty_of(series, prior, in.c.fit.robust, held);
   const VectorX sd = u.sd(), white = u.white.diagonal().cwiseMax(0.0).cwiseSqrt();

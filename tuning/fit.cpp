@@ -1,6 +1,7 @@
 #include "tuning/fit.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <cmath>
 #include <exception>
@@ -26,6 +27,8 @@ class UnitRunner {
   }
 
   const UnitValues& values(std::size_t unit) const { return values_[unit]; }
+  /// Why the first unit that failed at the first point did; empty if none.
+  const std::string& first_failure() const { return first_failure_; }
   std::vector<UnitValues> take() { return std::move(values_); }
   int evaluations() const { return evaluations_; }
   std::exception_ptr first_error() const { return first_error_; }
@@ -41,20 +44,27 @@ class UnitRunner {
       for (const int block : unit.blocks) x.push_back(blocks[static_cast<std::size_t>(block)]);
       values_[u].ok = false;
       try {
-        values_[u].ok = unit.evaluate(x, values_[u].r, values_[u].J) && values_[u].r.allFinite();
-        for (const MatrixX& J : values_[u].J) values_[u].ok = values_[u].ok && J.allFinite();
+        values_[u].message = unit.evaluate(x, values_[u].r, values_[u].J);
+        bool finite = values_[u].r.allFinite();
+        for (const MatrixX& J : values_[u].J) finite = finite && J.allFinite();
+        if (values_[u].message.empty() && !finite) values_[u].message = "the simulation gives values that are no numbers";
+        values_[u].ok = values_[u].message.empty();
       } catch (...) {
         errors[u] = std::current_exception();
       }
     }
+    if (evaluations_ > 1) return;
     for (const std::exception_ptr& error : errors)
-      if (error && evaluations_ == 1) first_error_ = error;
+      if (error) first_error_ = error;
+    for (const UnitValues& values : values_)
+      if (first_failure_.empty()) first_failure_ = values.message;
   }
 
   const FitProblem& problem_;
   std::vector<VectorX> point_, former_point_;
   std::vector<UnitValues> values_, former_values_;
   std::exception_ptr first_error_;
+  std::string first_failure_;
   int evaluations_ = 0;
 };
 
@@ -200,13 +210,14 @@ FitOutcome solve_fit(FitProblem& problem, const FitOptions& options) {
   with.callbacks.push_back(&watch);
   with.update_state_every_iteration = true;
   ceres::Solver::Summary summary;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // what goes wrong is in the outcome, not on stderr
   ceres::Solve(with, &ceres_problem, &summary);
   if (runner.first_error()) std::rethrow_exception(runner.first_error());
   FitOutcome outcome;
   outcome.usable = summary.IsSolutionUsable();
   outcome.converged = summary.termination_type == ceres::CONVERGENCE;
   outcome.interrupted = options.stop && options.stop->load();
-  outcome.message = summary.message;
+  outcome.message = runner.first_failure().empty() ? summary.message : runner.first_failure();
   outcome.cost = summary.final_cost;
   outcome.iterations = static_cast<int>(summary.iterations.size());
   outcome.evaluations = runner.evaluations();

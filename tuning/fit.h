@@ -34,8 +34,9 @@ struct FitUnit {
   std::vector<FitGroup> groups;  // in the order of the residuals
   bool simulates = true;         // false for what is known beforehand
   /// Fills r (all groups) and J (by block of the unit: residuals x block size) at block values in the unit's order.
-  /// Returns false when the simulation fails. May throw; called from several threads, once at a time for a unit.
-  std::function<bool(const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J)> evaluate;
+  /// Returns why the simulation failed, empty if it did not. May throw; called from several threads, once at a time for a
+  /// unit.
+  std::function<std::string(const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J)> evaluate;
 
   int residuals() const;
 };
@@ -53,7 +54,7 @@ struct FitProgress {
 struct FitOptions {
   double robust = 2.5;   // Huber's threshold, in residuals; > 0
   int iterations = 50;
-  double tolerance = 1e-8;  // relative change of the cost that ends it
+  double tolerance = 1e-6;  // relative change of the cost that ends it
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const FitProgress&)> progress;
 };
@@ -73,6 +74,7 @@ FitOutcome solve_fit(FitProblem& problem, const FitOptions& options);
 /// The residuals and derivatives of every unit at the blocks' values; false if one fails.
 struct UnitValues {
   bool ok = false;
+  std::string message;  // why not
   VectorX r;
   std::vector<MatrixX> J;
 };

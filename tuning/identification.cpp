@@ -243,8 +243,7 @@ class Identifier {
       if (models_[left].data.kind == FitRecordSpec::Kind::constant) continue;
       FitProblem others = whole_records();
       others.units.erase(others.units.begin() + static_cast<std::ptrdiff_t>(left));
-      FitOptions options = fit_options("without " + models_[left].data.name);
-      options.tolerance = 1e-6;
+      const FitOptions options = fit_options("without " + models_[left].data.name);
       count(others, solve_fit(others, options));
       FitProblem alone = blocks();
       alone.blocks[0] = others.blocks[0];

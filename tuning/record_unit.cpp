@@ -58,10 +58,10 @@ FitUnit record_unit(const RecordModel& model, const FitParameters& parameters, c
   unit.groups = {group};
   const VectorX span = parameters.span();
   unit.evaluate = [&model, &parameters, sigma, index, span, options](const std::vector<VectorX>& x, VectorX& r,
-                                                            std::vector<MatrixX>& J) {
+                                                            std::vector<MatrixX>& J) -> std::string {
     const VectorX values = parameters.values(x[0]);
     const Prediction p = predict(model, parameters.of(model, values), model.own() > 0 ? x[1] : VectorX(), true, options);
-    if (!p.ok) return false;
+    if (!p.ok) return model.data.name + ": " + p.message;
     const auto rows = static_cast<Eigen::Index>(index->size());
     const auto keys = static_cast<Eigen::Index>(model.keys.size());
     r.resize(rows);
@@ -79,7 +79,7 @@ FitUnit record_unit(const RecordModel& model, const FitParameters& parameters, c
       }
       if (x.size() > 1) J[1].row(row) = weight * p.tangent[k].row(i).tail(x[1].size());
     }
-    return true;
+    return {};
   };
   return unit;
 }
@@ -92,7 +92,7 @@ FitUnit prior_unit(const FitParameters& parameters) {
   unit.blocks = {0};
   unit.groups = {{{0}, static_cast<int>(known.size()), false}};
   unit.simulates = false;
-  unit.evaluate = [&parameters, known](const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J) {
+  unit.evaluate = [&parameters, known](const std::vector<VectorX>& x, VectorX& r, std::vector<MatrixX>& J) -> std::string {
     const VectorX values = parameters.values(x[0]), span = parameters.span();
     r.resize(static_cast<Eigen::Index>(known.size()));
     J.assign(1, MatrixX::Zero(r.size(), x[0].size()));
@@ -102,7 +102,7 @@ FitUnit prior_unit(const FitParameters& parameters) {
       r[row] = (values[i] - *spec.prior_mean) / *spec.prior_sd;
       J[0](row, i) = span[i] / *spec.prior_sd;
     }
-    return true;
+    return {};
   };
   return unit;
 }

@@ -156,19 +156,21 @@ class SegmentEvaluation {
                     const std::vector<VectorX>& x)
       : record_(record.record_), segment_(record), k_(k), settings_(settings), x_(x), keys_(record_.keys.size()) {}
 
-  bool run(VectorX& r, std::vector<MatrixX>& J) {
+  std::string run(VectorX& r, std::vector<MatrixX>& J) {
     simulate();
     const MeasuredRecord& data = part().model.data;
-    if (run_.trajectory.status != RunStatus::completed || !run_.tangents.valid) return false;
+    const std::string segment = fmt::format("{}, segment {}: ", record_.data.name, k_ + 1);
+    if (run_.trajectory.status != RunStatus::completed) return segment + run_.trajectory.message;
+    if (!run_.tangents.valid) return segment + "the derivatives grew beyond use";
     const Interpolation at(run_.trajectory.time, data.time);
-    if (!at.complete()) return false;
+    if (!at.complete()) return segment + "the case ends before it";
     const auto samples = static_cast<Eigen::Index>(part().index.size());
     r = VectorX::Zero(samples + (place().next < 0 ? 0 : segment_.spread_.size()));
     J.assign(x_.size(), MatrixX());
     for (std::size_t b = 0; b < x_.size(); ++b) J[b] = MatrixX::Zero(r.size(), x_[b].size());
     add_samples(at, r, J);
     if (place().next >= 0) add_ties(samples, r, J);
-    return true;
+    return {};
   }
 
  private:

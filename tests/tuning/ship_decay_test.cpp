@@ -47,6 +47,7 @@ critical_fraction_pitch = 0.1
 [solver]
 time_step_s = 0.1
 output_interval_s = 0.1
+max_duration_s = 30.0
 )",
                      hull);
 }
