@@ -28,6 +28,16 @@ double robust_spread(std::vector<double> r) {
   return 1.4826 * *middle;  // of a normal
 }
 
+/// Standard deviation of what changes from sample to sample: second differences take a smooth motion out.
+double scatter_of(const std::vector<double>& values) {
+  std::vector<double> second;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double d = values[i + 1] - 2.0 * values[i] + values[i - 1];
+    if (!std::isnan(d)) second.push_back(d / std::sqrt(6.0));
+  }
+  return robust_spread(std::move(second));
+}
+
 class Identifier {
  public:
   Identifier(const Case& c, const IdentificationOptions& options) : case_(c), options_(options) {}
@@ -129,8 +139,9 @@ class Identifier {
     for (const RecordModel& model : models_) {
       std::vector<double> sigma;
       for (const MeasuredChannel& channel : model.data.channels)
-        sigma.push_back(std::isnan(channel.noise) ? std::max(1e-12, kSharedNoise * spread_of(channel.value))
-                                                  : channel.noise);
+        sigma.push_back(std::isnan(channel.noise)
+                            ? std::max({1e-12, kSharedNoise * spread_of(channel.value), scatter_of(channel.value)})
+                            : channel.noise);
       sigma_.push_back(sigma);
       before_.push_back(predict(model, parameters_.of(model, values_), own_[before_.size()], false, run_options()));
     }
