@@ -15,7 +15,7 @@ namespace {
 constexpr int kChains = 3;
 // A chain with fewer evaluations than this does not come to an end.
 constexpr int kShortestChain = 20;
-constexpr double kSampleShare = 0.1, kPolishShare = 0.1;  // of the budget
+constexpr double kSampleShare = 0.1, kPolishShare = 0.1;  // of the budget; samples also at most n + 1
 // Starts closer than this (root mean square over the variables, share of the range) lead to the same optimum.
 constexpr double kSameStart = 0.05;
 // Without gradients a model of n variables takes n + 1 evaluations before the first informed step.
@@ -96,7 +96,8 @@ class AutoSearch {
   std::vector<Eigen::VectorXd> try_starts() {
     std::vector<Eigen::VectorXd> starts = {problem_.start};
     starts.insert(starts.end(), options_.starts.begin(), options_.starts.end());
-    const int samples = static_cast<int>(std::lround(kSampleShare * options_.evaluations));
+    const int samples = std::min(static_cast<int>(std::lround(kSampleShare * options_.evaluations)),
+                                 static_cast<int>(problem_.start.size()) + 1);
     for (int i = 1; i <= samples; ++i) starts.push_back(random_point(problem_, options_.seed, i));
     if (static_cast<int>(starts.size()) > options_.evaluations)
       starts.resize(static_cast<std::size_t>(options_.evaluations));

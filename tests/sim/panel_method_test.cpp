@@ -160,7 +160,7 @@ TEST_CASE("the march in time has the coefficients of the frequency domain", "[ra
   options.highest = 1.0;
   options.chosen = {};
   const auto march = std::make_shared<const rankine::PanelMarch>(std::vector{box_hull()}, options, 0.2);
-  const RadiationMarch radiation(march);
+  const RadiationMarch radiation(march, VectorX::Ones(6));
   const truth::BoxHull& exact = truth::kBoxHull[2];
   const double w = exact.frequency, h = 0.05;
   for (const int mode : {2, 4}) {
