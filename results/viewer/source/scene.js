@@ -38,11 +38,21 @@ function support(surface) {
   return group;
 }
 
+/** Without a graphics card the scene is drawn coarser, to stay fluent. */
+function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class ReplayScene {
   constructor(canvas, payload) {
     this.payload = payload;
     this.data = payload.header.scene;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    const coarse = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !coarse, preserveDrawingBuffer: true });
     this.renderer.setClearColor(SKY);
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#6f8794", 1.9));
@@ -62,7 +72,7 @@ export class ReplayScene {
     for (const body of this.bodies) body.update(payload, start);
     this.box = this.#extent();
     this.middle = this.box.getCenter(new THREE.Vector3());
-    this.sea = new Sea(this.data.sea, this.middle, SKY);
+    this.sea = new Sea(this.data.sea, this.middle, SKY, coarse ? 72 : 144);
     this.scene.add(this.sea.mesh);
     this.load = this.bodies.find(({ body }) => body.kind === "load") ?? this.bodies[0];
     this.#addTarget();

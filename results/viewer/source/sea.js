@@ -3,7 +3,6 @@
 
 import * as THREE from "three";
 
-const CELLS = 144;
 const REACH = 1600; // m, from the middle to the edge
 const NEAR = 260; // m, half the width of the part with fine cells
 
@@ -63,8 +62,8 @@ const FRAGMENT = /* glsl */ `
   }`;
 
 /** Fine cells in the middle, long ones towards the horizon. */
-function grid() {
-  const geometry = new THREE.PlaneGeometry(2, 2, CELLS, CELLS);
+function grid(cells) {
+  const geometry = new THREE.PlaneGeometry(2, 2, cells, cells);
   const position = geometry.attributes.position;
   const stretch = (u) => u * (NEAR * 0.9 + (REACH - NEAR * 0.9) * Math.pow(Math.abs(u), 5));
   for (let i = 0; i < position.count; ++i) position.setXYZ(i, stretch(position.getX(i)), stretch(position.getY(i)), 0);
@@ -72,7 +71,8 @@ function grid() {
 }
 
 export class Sea {
-  constructor(sea, middle, sky) {
+  /** `cells`: along each side of the grid. */
+  constructor(sea, middle, sky, cells) {
     this.sea = sea;
     const count = Math.max(1, sea.components.length);
     this.values = new Float32Array(4 * count);
@@ -87,7 +87,7 @@ export class Sea {
       sky: { value: new THREE.Color(sky) },
     };
     this.mesh = new THREE.Mesh(
-      grid(),
+      grid(cells),
       new THREE.ShaderMaterial({
         vertexShader: VERTEX,
         fragmentShader: FRAGMENT,
