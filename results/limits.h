@@ -13,8 +13,8 @@ struct LimitSpec {
   std::string metric;
   std::optional<double> max, min;  // in the metric's unit
   std::string source;              // where the number comes from, shown in every report
-  double share = 0.0;              // of the scenarios of a search that may break it: "in at most 5 % of seas"
   bool hard = true;                // hard: a violation makes the verdict fail; soft: reported as a warning
+  double share = 0.0;              // of the scenarios of a search that may break it: "in at most 5 % of seas"
 };
 
 struct LimitCheck {

@@ -60,25 +60,28 @@ void add_taglines(const Model& with_lines, const SystemState& state, JacobianSum
   }
 }
 
-/// Damping ratio of the eigenvalue nearest to i w.
-double damping_near(const MatrixX& M, const MatrixX& C, const MatrixX& K, double w) {
+/// Damping ratio of the eigenvector that looks most like `shape`: frequencies may coincide (a pendulum's two do).
+double damping_of(const MatrixX& M, const MatrixX& C, const MatrixX& K, const VectorX& shape) {
   const Eigen::Index n = M.rows();
   const auto solver = M.ldlt();
   MatrixX A = MatrixX::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = solver.solve(K);  // K and C are derivatives of the force: negative for a spring
   A.bottomRightCorner(n, n) = solver.solve(C);
-  const Eigen::VectorXcd s = Eigen::EigenSolver<MatrixX>(A, false).eigenvalues();
-  std::complex<double> best(0.0, 0.0);
-  double distance = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& value : s) {
-    const double d = std::abs(value - std::complex<double>(0.0, w));
-    if (value.imag() > 0.0 && d < distance) {
-      distance = d;
-      best = value;
-    }
+  const Eigen::EigenSolver<MatrixX> eigen(A);
+  const VectorX weighted = M * shape;
+  double best = 0.0, ratio = kNaN;
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const std::complex<double> s = eigen.eigenvalues()[i];
+    if (!(s.imag() > 0.0)) continue;
+    const Eigen::VectorXcd q = eigen.eigenvectors().col(i).head(n);
+    const double size = std::real(q.dot(M * q));
+    const double alike = size > 0.0 ? std::norm(weighted.cast<std::complex<double>>().dot(q)) / size : 0.0;
+    if (alike <= best) continue;
+    best = alike;
+    ratio = -s.real() / std::abs(s);
   }
-  return std::isfinite(distance) ? -best.real() / std::abs(best) : kNaN;
+  return ratio;
 }
 
 class HangingPose {
@@ -116,7 +119,7 @@ class HangingPose {
     s.period = mode.period;
     const MatrixX M = Z_.transpose() * analysis_.mass_at(mode.frequency) * Z_;
     const auto ratio = [&](const MatrixX& C, const MatrixX& K) {
-      return damping_near(M, Z_.transpose() * C * Z_, Z_.transpose() * K * Z_, mode.frequency);
+      return damping_of(M, Z_.transpose() * C * Z_, Z_.transpose() * K * Z_, Z_.transpose() * mode.shape);
     };
     s.linear_free = ratio(C_, K_);
     s.linear_lines = ratio(C_lines_, K_lines_);
