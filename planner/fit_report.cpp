@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
+#include <utility>
 
 #include "planner/fit_units.h"
 #include "planner/report_page.h"
@@ -181,11 +182,15 @@ std::string head(const Identification& result) {
 
 std::string fit_report(const Case& c, const Identification& result, const std::vector<std::string>& files) {
   ReportPage page;
-  page.section("estimates", "Estimates", table_html(estimate_table(result)) + correlation_html(result));
-  page.section("residuals", "Residuals", table_html(residual_table(result)));
-  const ReportTable decays = decay_table(result), cross = cross_table(result);
-  if (!decays.rows.empty()) page.section("decays", "Decays", table_html(decays, 2));
-  if (!cross.rows.empty()) page.section("cross", "Cross-validation", table_html(cross));
+  const auto table_section = [&page](const std::string& id, ReportTable table, int numeric_from, const std::string& more) {
+    if (table.rows.empty()) return;
+    const std::string title = std::exchange(table.title, "");  // the section's own heading says it
+    page.section(id, title, table_html(table, numeric_from) + more);
+  };
+  table_section("estimates", estimate_table(result), 1, correlation_html(result));
+  table_section("residuals", residual_table(result), 1, "");
+  table_section("decays", decay_table(result), 2, "");
+  table_section("cross", cross_table(result), 1, "");
   for (const RecordFit& record : result.records)
     page.section("record-" + record.name, "Record " + readable_name(record.name), record_html(record));
   std::string notes;

@@ -16,7 +16,7 @@ std::string table_html(const ReportTable& t, int numeric_from) {
     rows.emplace_back();
     for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
   }
-  std::string out = "<h3>" + escape_html(t.title) + "</h3>";
+  std::string out = t.title.empty() ? "" : "<h3>" + escape_html(t.title) + "</h3>";
   if (!rows.empty()) out += html_table(header, rows, numeric_from);
   return out + (t.note.empty() ? "" : "<p><small>" + escape_html(t.note) + "</small></p>");
 }

@@ -7,7 +7,7 @@
 
 namespace stillhook {
 
-/// A table with its title above and its note below; cells are escaped.
+/// A table with its title, if it has one, above and its note below; cells are escaped.
 std::string table_html(const ReportTable& table, int numeric_from = 1);
 
 class ReportPage {
