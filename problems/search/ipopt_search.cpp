@@ -103,11 +103,10 @@ class UnitProblem : public Ipopt::TNLP {
  private:
   /// Null where a step may not end: Ipopt then tries a shorter one. Must not throw, since Ipopt would swallow it.
   const UnitEvaluation* at(const Number* z) noexcept {
-    const UnitEvaluation* evaluation = nullptr;
-    {
-      const Unlocked others_may(lock_);
-      evaluation = run_.at(z);
-    }
+    std::optional<Unlocked> others_may;
+    if (!run_.is_last(z)) others_may.emplace(lock_);
+    const UnitEvaluation* evaluation = run_.at(z);
+    others_may.reset();
     return evaluation && evaluation->usable && evaluation->gradient_valid ? evaluation : nullptr;
   }
 

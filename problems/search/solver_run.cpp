@@ -21,12 +21,15 @@ SolverRun::SolverRun(const SearchProblem& problem, const SolveOptions& options, 
   report_.algorithm = solver.name;
 }
 
+bool SolverRun::is_last(const double* z) const {
+  return has_last_ && Eigen::Map<const Eigen::VectorXd>(z, variables()) == last_unit_;
+}
+
 const UnitEvaluation* SolverRun::at(const double* z) noexcept {
   try {
-    const Eigen::VectorXd unit = Eigen::Map<const Eigen::VectorXd>(z, variables());
-    if (has_last_ && unit == last_unit_) return &last_;
+    if (is_last(z)) return &last_;
     if (!may_go_on()) return nullptr;
-    evaluate(unit);
+    evaluate(Eigen::Map<const Eigen::VectorXd>(z, variables()));
   } catch (...) {
     error_ = std::current_exception();
     end_ = End::error;

@@ -38,6 +38,9 @@ class SolverRun {
   /// What the solver may take for zero.
   double tolerance() const { return margin_ > 0.0 ? margin_ : options_.constraint_tolerance; }
 
+  /// True if z is the point of the last evaluation, which at() then returns without computing anything.
+  bool is_last(const double* z) const;
+
   /// The evaluation at z, with gradients if the solver needs them; null if the run has ended. Made for callbacks from
   /// C: never throws.
   const UnitEvaluation* at(const double* z) noexcept;
