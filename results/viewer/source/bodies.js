@@ -27,6 +27,7 @@ export function meshGeometry(payload, mesh) {
   geometry.setAttribute("position", new THREE.BufferAttribute(payload.floats(mesh.vertices, 3 * mesh.vertex_count), 3));
   geometry.setIndex(new THREE.BufferAttribute(payload.integers(mesh.corners, mesh.corner_count), 1));
   geometry.computeVertexNormals();
+  geometry.computeBoundingBox();
   return geometry;
 }
 

@@ -7,14 +7,15 @@ import { Moorings, Wires } from "./lines.js";
 import { Sea } from "./sea.js";
 
 const SKY = "#e6edf2";
+const DEEPEST = -30; // m, what lies deeper need not be in the first view
+const ROOM = 1.08; // 1: the outermost corner touches the edge
 const LEG_DEPTH = 40; // m, how far down a support's legs are drawn
 
-/** `room`: 1 = the corners of the box around everything just touch the edge. */
 export const VIEWS = [
-  { name: "Overview", direction: [0.62, -0.72, 0.34], room: 0.86 },
-  { name: "Side", direction: [0, -1, 0.03], room: 1.06 },
-  { name: "Ahead", direction: [1, 0, 0.05], room: 1.06 },
-  { name: "Plan", direction: [0, -0.001, 1], room: 1.06 },
+  { name: "Overview", direction: [0.62, -0.72, 0.34] },
+  { name: "Side", direction: [0, -1, 0.03] },
+  { name: "Ahead", direction: [1, 0, 0.05] },
+  { name: "Plan", direction: [0, -0.001, 1] },
 ];
 
 /** Something to be set down on: a slab under the rectangle, on legs where it stands in the world above the sea. */
@@ -70,8 +71,10 @@ export class ReplayScene {
 
     const start = payload.place(payload.time[0]);
     for (const body of this.bodies) body.update(payload, start);
-    this.box = this.#extent();
-    this.middle = this.box.getCenter(new THREE.Vector3());
+    this.corners = this.#corners();
+    const box = new THREE.Box3().setFromPoints(this.corners);
+    this.middle = box.getCenter(new THREE.Vector3());
+    this.size = box.getSize(new THREE.Vector3()).length();
     this.sea = new Sea(this.data.sea, this.middle, SKY, coarse ? 72 : 144);
     this.scene.add(this.sea.mesh);
     this.load = this.bodies.find(({ body }) => body.kind === "load") ?? this.bodies[0];
@@ -87,19 +90,31 @@ export class ReplayScene {
     this.view(0);
   }
 
-  /** Around the hulls, members and wires' ends at the start; not the moorings, which lie far out. */
-  #extent() {
-    const box = new THREE.Box3();
-    for (const { group } of this.bodies) box.expandByObject(group);
-    box.expandByPoint(new THREE.Vector3(...this.data.target));
-    return box;
+  /** Corners of the hulls, ends of members and wires at the start: what the views fit in; not the far moorings. */
+  #corners() {
+    const points = [new THREE.Vector3(...this.data.target)];
+    const corner = new THREE.Vector3();
+    this.bodies.forEach(({ body, group }, i) => {
+      for (const { from, to } of body.members)
+        for (const end of [from, to]) points.push(new THREE.Vector3(...end).applyMatrix4(group.matrixWorld));
+      for (const line of this.data.lines)
+        for (const [index, point] of [[line.from, line.point_from], [line.to, line.point_to]])
+          if (index === i) points.push(new THREE.Vector3(...point).applyMatrix4(group.matrixWorld));
+          else if (index < 0) points.push(new THREE.Vector3(...point));
+      const box = group.children[0]?.geometry?.boundingBox;
+      if (!box || !body.mesh) return;
+      for (let k = 0; k < 8; ++k)
+        points.push(corner.set(k & 1 ? box.min.x : box.max.x, k & 2 ? box.min.y : box.max.y, k & 4 ? box.min.z : box.max.z)
+          .clone().applyMatrix4(group.matrixWorld));
+    });
+    return points.filter((p) => p.z > DEEPEST);
   }
 
   /** Where the load shall stand: its outline, and a cross. */
   #addTarget() {
     const target = new THREE.Vector3(...this.data.target);
     const material = new THREE.LineBasicMaterial({ color: "#00603a" });
-    const arm = 6;
+    const arm = 0.025 * this.size;
     const cross = [[arm, 0, 0], [0, arm, 0], [0, 0, arm]].flatMap((v) => [
       target.clone().sub(new THREE.Vector3(...v)),
       target.clone().add(new THREE.Vector3(...v)),
@@ -130,23 +145,26 @@ export class ReplayScene {
   /** Looks from one of VIEWS, everything in sight. */
   view(index) {
     const direction = new THREE.Vector3(...VIEWS[index].direction).normalize();
-    this.controls.target.copy(this.middle);
-    // The camera's axes, to see how far the corners of the box lie to the side and above.
-    this.camera.position.copy(this.middle).add(direction);
-    this.camera.lookAt(this.middle);
-    this.camera.updateMatrixWorld();
-    const back = this.camera.matrixWorldInverse.copy(this.camera.matrixWorld).invert();
     const tan = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
-    const room = this.camera.aspect < 1.6 ? 1.02 : VIEWS[index].room;
-    let distance = 10;
-    for (const x of [this.box.min.x, this.box.max.x])
-      for (const y of [this.box.min.y, this.box.max.y])
-        for (const z of [Math.max(this.box.min.z, -30), this.box.max.z]) {
-          const p = new THREE.Vector3(x, y, z).applyMatrix4(back);
-          const needed = Math.max(Math.abs(p.x) / (tan * this.camera.aspect), Math.abs(p.y) / tan) + p.z + 1;
-          distance = Math.max(distance, room * needed);
-        }
-    this.camera.position.copy(this.middle).addScaledVector(direction, distance);
+    const look = this.middle.clone();
+    let distance = this.size;
+    // Each pass centres what it sees and comes as close as it can; the second pass corrects the perspective of the first.
+    for (let pass = 0; pass < 3; ++pass) {
+      this.camera.position.copy(look).addScaledVector(direction, distance);
+      this.camera.lookAt(look);
+      this.camera.updateMatrixWorld();
+      const toCamera = this.camera.matrixWorld.clone().invert();
+      const seen = new THREE.Box2();
+      const points = this.corners.map((corner) => corner.clone().applyMatrix4(toCamera));
+      for (const p of points) seen.expandByPoint(new THREE.Vector2(p.x / -p.z, p.y / -p.z));
+      const centre = seen.getCenter(new THREE.Vector2()).multiplyScalar(distance);
+      look.add(new THREE.Vector3(centre.x, centre.y, 0).applyQuaternion(this.camera.quaternion));
+      const needed = points.map(({ x, y, z }) =>
+        ROOM * Math.max(Math.abs(x - centre.x) / (tan * this.camera.aspect), Math.abs(y - centre.y) / tan) + z + distance);
+      distance = Math.max(10, ...needed);
+    }
+    this.controls.target.copy(look);
+    this.camera.position.copy(look).addScaledVector(direction, distance);
     this.current = index;
     this.followed = this.followed && this.#loadPlace();
     this.controls.update();
