@@ -9,9 +9,8 @@ namespace {
 
 constexpr double kCalm = -1.0;  // s: before the waves start
 // Drive steps for the slope of a goal, m: a small one where the drive has a grip; larger ones, either way, where it
-// first has to take up slack. A slope below kNoGrip is no grip.
+// first has to take up slack. A slope below no_grip() is none.
 constexpr double kProbes[] = {1e-3, 0.3, -0.3, 3.0, -3.0};
-constexpr double kNoGrip = 5e-3;
 constexpr double kLargestStep = 3.0;  // of a drive in one iteration, m
 constexpr int kMaxIterations = 60;
 constexpr int kHalvings = 6;  // of a step of the drives that leaves the region where an equilibrium is found
@@ -41,6 +40,9 @@ void settle(const Model& model, SystemState& state, const std::string& entry) {
 
 // Tolerance of a goal in its own unit, m, rad or N: two solutions are subtracted where derivatives are wanted.
 double tolerance_of(const StaticGoal& goal) { return goal.coordinate.wire.empty() ? 1e-10 : 1e-3; }
+
+// Of a drive on a coordinate, per m: rounding alone gives less than a newton of tension.
+double no_grip(const StaticGoal& goal) { return goal.coordinate.wire.empty() ? 5e-3 : 10.0; }
 
 }  // namespace
 
@@ -86,8 +88,11 @@ void solve_static(const Model& model, SystemState& state, const std::vector<Stat
         probe.drive[goals[j].drive].position += by;
         if (!try_to_settle(model, probe).converged) continue;
         slope.col(j) = (miss(probe) - f) / by;
-        if (std::abs(slope(j, j)) > kNoGrip) break;
+        if (std::abs(slope(j, j)) > no_grip(goals[j])) break;
       }
+      // A load that hangs free keeps its wires' tension however far it is lowered: on until it lands, or is off it.
+      if (!goals[j].coordinate.wire.empty() && std::abs(slope(j, j)) <= no_grip(goals[j]))
+        slope(j, j) = std::abs(f[j]) / kLargestStep;
     }
     VectorX step = -slope.fullPivLu().solve(f);
     if (!step.allFinite()) break;
