@@ -115,7 +115,7 @@ ReportTable swing_table(const GainTuning& result) {
       "Damping of the swing",
       "Share of critical about the static pose that ends each phase. Linear: from the linearised lift, a line that can "
       "only pull counted with half its gains. Decay: from the decrement of a simulated swing of one degree in calm "
-      "water, winch and all. A stable swing has a positive share.",
+      "water, winch and all; none where the load touches on its way. A stable swing has a positive share.",
       {"", "period, s", "no lines, linear", "no lines, decay", "case, linear", "case, decay", "tuned, linear",
        "tuned, decay"},
       {}};

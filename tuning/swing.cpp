@@ -35,13 +35,30 @@ Specification in_calm_water(Specification specification) {
   return specification;
 }
 
-SystemState settled(const Model& model, const StaticPose& pose, int phase) {
-  SystemState state = model.initial_state();
-  for (std::size_t d = 0; d < pose.drives.size(); ++d) state.drive[d] = {pose.drives[d], 0.0};
-  state.phase = phase;
-  solve_static(model, state, {}, "poses." + pose.name);
-  return state;
-}
+/// Takes a model from one static pose to the next, in steps that an equilibrium can follow.
+class PoseWalk {
+ public:
+  explicit PoseWalk(const Model& model) : model_(model), state_(model.initial_state()) {}
+
+  const SystemState& go_to(const StaticPose& pose, int phase) {
+    constexpr double kStep = 2.0;  // m or rad of any drive
+    const std::vector<DriveState> from = state_.drive;
+    double way = 0.0;
+    for (std::size_t d = 0; d < from.size(); ++d) way = std::max(way, std::abs(pose.drives[d] - from[d].position));
+    const int steps = std::max(1, static_cast<int>(std::ceil(way / kStep)));
+    state_.phase = phase;
+    for (int k = 1; k <= steps; ++k) {
+      for (std::size_t d = 0; d < from.size(); ++d)
+        state_.drive[d] = {from[d].position + (pose.drives[d] - from[d].position) * k / steps, 0.0};
+      solve_static(model_, state_, {}, "poses." + pose.name);
+    }
+    return state_;
+  }
+
+ private:
+  const Model& model_;
+  SystemState state_;
+};
 
 /// Stiffness and damping of the taglines' linear equivalent, added to K = dQ/dxi and C = dQ/du.
 void add_taglines(const Model& with_lines, const SystemState& state, JacobianSum& out) {
@@ -86,8 +103,10 @@ double damping_of(const MatrixX& M, const MatrixX& C, const MatrixX& K, const Ve
 
 class HangingPose {
  public:
-  HangingPose(const Model& free, const Model& lines, const StaticPose& pose, int phase)
-      : free_(free), lines_(lines), name_(pose.name), analysis_(free), state_(settled(free, pose, phase)) {
+  /// `at_free`, `at_lines`: the equilibria of the two models there.
+  HangingPose(const Model& free, const Model& lines, const std::string& name, const SystemState& at_free,
+              const SystemState& at_lines)
+      : free_(free), lines_(lines), name_(name), analysis_(free), state_(at_free), state_lines_(at_lines) {
     modes_ = analysis_.at(state_);
     SystemState calm = state_;
     calm.t = kCalm;
@@ -125,8 +144,8 @@ class HangingPose {
     s.linear_lines = ratio(C_lines_, K_lines_);
     s.decay_free = s.decay_lines = kNaN;
     if (!options.simulate) return s;
-    s.decay_free = decay(free_, mode, axis, options);
-    s.decay_lines = decay(lines_, mode, axis, options);
+    s.decay_free = decay(free_, state_, mode, axis, options);
+    s.decay_lines = decay(lines_, state_lines_, mode, axis, options);
     return s;
   }
 
@@ -156,11 +175,7 @@ class HangingPose {
     return operation;
   }
 
-  double decay(const Model& model, const Mode& mode, int axis, const SwingOptions& options) const {
-    StaticPose here;
-    here.name = name_;
-    for (const DriveState& d : state_.drive) here.drives.push_back(d.position);
-    SystemState state = settled(model, here, state_.phase);
+  double decay(const Model& model, SystemState state, const Mode& mode, int axis, const SwingOptions& options) const {
     // The displaced load is let go a moment after the drives' jump.
     state.t = 0.0;
     double length = 0.0;
@@ -177,7 +192,9 @@ class HangingPose {
     run_with.from = &state;
     const double time = (options.swings + 1.5) * mode.period;
     const Trajectory run = simulate(model, waiting(model, time), run_with);
-    return run.status == RunStatus::completed ? decrement(model, run, axis, options.swings) : kNaN;
+    // A load that touches on its way, low over its target, has no decay to measure.
+    if (run.status != RunStatus::completed || !run.contacts.empty()) return kNaN;
+    return decrement(model, run, axis, options.swings);
   }
 
   /// Of the mean lead of the hoist wires: peaks of one sign, from the first after the release on.
@@ -210,7 +227,7 @@ class HangingPose {
   const Model& lines_;
   std::string name_;
   ModalAnalysis analysis_;
-  SystemState state_;
+  SystemState state_, state_lines_;
   std::vector<Mode> modes_;
   MatrixX K_, C_, K_lines_, C_lines_, Z_;
 };
@@ -223,16 +240,20 @@ std::vector<SwingMode> swing_modes(const Specification& specification, const Swi
   const Operation operation = build_operation(lines);
   const int load = lines.body_index(specification.operation.load);
   std::vector<SwingMode> modes;
+  PoseWalk walk_free(free), walk_lines(lines);
   for (std::size_t p = 0; p < operation.phases.size(); ++p) {
+    const StaticPose& pose = operation.static_poses[p + 1];
+    const SystemState at_free = walk_free.go_to(pose, static_cast<int>(p));
+    const SystemState at_lines = walk_lines.go_to(pose, static_cast<int>(p));
     if (operation.phases[p].stage != PhaseSpec::Stage::hanging) continue;
-    const bool connected =
-        std::any_of(lines.system().elements.begin(), lines.system().elements.end(), [&](const auto& e) {
-          const auto* line = dynamic_cast<const Tagline*>(e.get());
-          return line && line->options().active && static_cast<int>(p) >= line->options().active_from_phase;
-        });
+    const auto& elements = lines.system().elements;
+    const bool connected = std::any_of(elements.begin(), elements.end(), [&](const auto& e) {
+      const auto* line = dynamic_cast<const Tagline*>(e.get());
+      return line && line->options().active && static_cast<int>(p) >= line->options().active_from_phase;
+    });
     if (!connected) continue;
-    const HangingPose pose(free, lines, operation.static_poses[p + 1], static_cast<int>(p));
-    for (const int axis : {0, 1}) modes.push_back(pose.swing(load, axis, options));
+    const HangingPose there(free, lines, pose.name, at_free, at_lines);
+    for (const int axis : {0, 1}) modes.push_back(there.swing(load, axis, options));
   }
   return modes;
 }
