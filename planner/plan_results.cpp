@@ -18,6 +18,11 @@ double equivalents(const Evaluator& evaluator, const PlanResult& result) {
          static_cast<double>(evaluator.scenarios().size());
 }
 
+std::string algorithms_of(const PlanResult& result) {
+  if (result.gradient.status == SearchStatus::not_run) return result.search.algorithm;
+  return result.gradient.algorithm + "+" + result.search.algorithm;
+}
+
 double objective_or_nan(const Evaluation& evaluation) {
   return evaluation.usable ? evaluation.objective : std::numeric_limits<double>::quiet_NaN();
 }
@@ -95,7 +100,7 @@ SearchSection search_section(const Evaluator& evaluator, const PlanResult& resul
   const PlanSpec& plan = evaluator.base().plan;
   const Evaluation& best = result.search.best;
   SearchSection s;
-  s.algorithm = result.search.algorithm;
+  s.algorithm = algorithms_of(result);
   s.status = result.search.message;
   s.evaluations = result.search.evaluations;
   s.seed = plan.seed;
@@ -132,7 +137,7 @@ SearchSection search_section(const Evaluator& evaluator, const PlanResult& resul
 void add_search(const Evaluator& evaluator, const PlanResult& result, Summary& summary) {
   summary.objective = ObjectiveSummary{objective_or_nan(result.baseline), objective_or_nan(result.search.best),
                                        objective_or_nan(result.random.best)};
-  summary.search = SearchSummary{result.search.algorithm, result.search.evaluations, equivalents(evaluator, result),
+  summary.search = SearchSummary{algorithms_of(result), result.search.evaluations, equivalents(evaluator, result),
                                  evaluator.base().plan.seed};
   const std::vector<VariableSpec>& variables = evaluator.base().plan.variables;
   for (std::size_t i = 0; i < variables.size(); ++i) {

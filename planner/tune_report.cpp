@@ -154,7 +154,8 @@ std::string tuning_report(const Evaluator& evaluator, const GainTuning& result) 
   std::string scenarios = "<ul>";
   for (const ScenarioSpec& s : evaluator.scenarios()) scenarios += "<li>" + escape_html(scenario_text(s)) + "</li>";
   page.section("scenarios", "Scenarios", scenarios + "</ul>");
-  const std::string head = fmt::format("<div class=\"verdict {}\">{}</div>", result.improved ? "pass" : "warn",
+  const std::string head = fmt::format("<div class=\"verdict {}\">{}</div>",
+                                       result.improved && result.tuned.violation() <= 0.0 ? "pass" : "warn",
                                        escape_html(tuning_verdict(result)));
   return page.html("Tagline gains of " + (c.title.empty() ? c.name : c.title), "", head, c.name);
 }
