@@ -60,8 +60,8 @@ struct PlanSpec {
 /// Tuning of tagline gains: the plan's objective and limits over few variables.
 struct TuneSpec {
   std::vector<VariableSpec> variables;   // empty = Kp and Kd of all taglines together
-  std::string algorithm = "slsqp";       // with gradients
-  int evaluations = 16;                  // points
+  std::string algorithm = "auto";        // with gradients where they are valid
+  int evaluations = 20;                  // points
   int map = 0;                           // points along each side of a map of the objective over the first two variables
 };
 

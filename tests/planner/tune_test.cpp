@@ -1,0 +1,59 @@
+// `stillhook tune`, and `plan` with gradients and certification, as a user runs them.
+#include <nlohmann/json.hpp>
+
+#include "problems/case.h"
+#include "tests/planner/program.h"
+
+namespace stillhook {
+namespace {
+
+using Catch::Matchers::Contains;
+
+const std::string kCase = std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml";
+
+TEST_CASE("tune lowers the objective and leaves a case that simulate takes", "[cli][tune]") {
+  const Folder folder;
+  const Result r = run(folder, {"tune", kCase, "--out", "tuned", "--evaluations", "12", "--json", "--quiet"});
+  INFO(r.err);
+  REQUIRE(r.code == 0);
+  const auto summary = nlohmann::json::parse(r.out);
+  CHECK(summary["verb"] == "tune");
+  CHECK(summary["objective"]["plan"].get<double>() < summary["objective"]["baseline"].get<double>());
+  REQUIRE(summary["variables"].size() == 2);
+  const Case tuned = read_case(folder / "tuned/tuned.toml");
+  for (const auto& v : summary["variables"])
+    CHECK(key_value(tuned, v["name"].get<std::string>()) == Approx(v["plan"].get<double>()).epsilon(1e-12));
+  CHECK_THAT(content(folder / "tuned/report.html"), Contains("Damping of the swing") && Contains("Winches"));
+  CHECK(run(folder, {"simulate", folder / "tuned/tuned.toml", "--quiet"}).code == 0);
+}
+
+TEST_CASE("tune without a tagline is refused", "[cli][tune][bad_input]") {
+  const Folder folder;
+  const Result r = run(folder, {"tune", kCase, "--set", "taglines.tagline.active=false"});
+  CHECK(r.code == 2);
+  CHECK_THAT(r.err, Contains("no active tagline"));
+}
+
+TEST_CASE("plan follows gradients and certifies in conditions it has not seen", "[cli][plan]") {
+  const Folder folder;
+  const Result r = run(folder, {"plan", kCase, "--out", "plan", "--evaluations", "6", "--set",
+                                "plan.gradient_algorithm=slsqp", "--set", "plan.gradient_evaluations=5", "--set",
+                                "plan.global_algorithm=none", "--set", "plan.certify=3", "--quiet"});
+  INFO(r.err);
+  REQUIRE(r.code == 0);
+  CHECK_THAT(r.out, Contains("slsqp+cobyla") && Contains("In 6 fresh conditions"));
+  CHECK_THAT(content(folder / "plan/report.html"),
+             Contains("What moves the objective") && Contains("conditions the search has not seen"));
+  const auto summary = nlohmann::json::parse(content(folder / "plan/summary.json"));
+  CHECK(summary["objective"]["plan"].get<double>() < summary["objective"]["baseline"].get<double>());
+}
+
+TEST_CASE("an unknown gradient algorithm is refused", "[cli][plan][bad_input]") {
+  const Folder folder;
+  const Result r = run(folder, {"plan", kCase, "--set", "plan.gradient_algorithm=newton"});
+  CHECK(r.code == 2);
+  CHECK_THAT(r.err, Contains("gradient_algorithm"));
+}
+
+}  // namespace
+}  // namespace stillhook
