@@ -10,9 +10,6 @@
 namespace stillhook {
 namespace {
 
-// A point with gradient costs about this many simulations (docs/performance.md).
-constexpr double kGradientCharge = 3.0;
-
 double equivalents(const Evaluator& evaluator, const PlanResult& result) {
   return (result.distinct + kGradientCharge * result.gradient.gradients) *
          static_cast<double>(evaluator.scenarios().size());

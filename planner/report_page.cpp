@@ -8,19 +8,6 @@
 
 namespace stillhook {
 
-std::string table_html(const ReportTable& t, int numeric_from) {
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-  for (const std::string& cell : t.header) header.push_back(escape_html(cell));
-  for (const auto& row : t.rows) {
-    rows.emplace_back();
-    for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
-  }
-  std::string out = t.title.empty() ? "" : "<h3>" + escape_html(t.title) + "</h3>";
-  if (!rows.empty()) out += html_table(header, rows, numeric_from);
-  return out + (t.note.empty() ? "" : "<p><small>" + escape_html(t.note) + "</small></p>");
-}
-
 void ReportPage::section(const std::string& id, const std::string& title, const std::string& content) {
   if (content.empty()) return;
   nav_ += fmt::format("<a href=\"#{}\">{}</a>", escape_html(id), escape_html(title));

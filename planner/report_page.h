@@ -3,12 +3,9 @@
 
 #include <string>
 
-#include "results/report.h"
+#include "results/report_parts.h"
 
 namespace stillhook {
-
-/// A table with its title, if it has one, above and its note below; cells are escaped.
-std::string table_html(const ReportTable& table, int numeric_from = 1);
 
 class ReportPage {
  public:

@@ -23,6 +23,9 @@
 
 namespace stillhook {
 
+/// What a point with gradient is charged, in simulations (docs/performance.md).
+inline constexpr double kGradientCharge = 3.0;
+
 /// What one scenario gave.
 struct ScenarioOutcome {
   RunStatus status = RunStatus::not_run;  // not_run: the lift could not be built

@@ -10,21 +10,25 @@
 #include "results/viewer_bundle.h"
 
 namespace stillhook {
+
+std::string table_html(const ReportTable& t, int numeric_from) {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& cell : t.header) header.push_back(escape_html(cell));
+  for (const auto& row : t.rows) {
+    rows.emplace_back();
+    for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
+  }
+  std::string out = t.title.empty() ? "" : "<h3>" + escape_html(t.title) + "</h3>";
+  if (!rows.empty()) out += html_table(header, rows, numeric_from);
+  return out + (t.note.empty() ? "" : "<p><small>" + escape_html(t.note) + "</small></p>");
+}
+
 namespace {
 
 std::string extra_tables(const ReportData& data) {
   std::string out;
-  for (const ReportTable& t : data.tables) {
-    std::vector<std::string> header;
-    std::vector<std::vector<std::string>> rows;
-    for (const std::string& cell : t.header) header.push_back(escape_html(cell));
-    for (const auto& row : t.rows) {
-      rows.emplace_back();
-      for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
-    }
-    out += "<h3>" + escape_html(t.title) + "</h3>" + html_table(header, rows);
-    if (!t.note.empty()) out += "<p><small>" + escape_html(t.note) + "</small></p>";
-  }
+  for (const ReportTable& t : data.tables) out += table_html(t);
   return out;
 }
 

@@ -47,6 +47,8 @@ std::string event_time(double seconds);
 /// heading. `numeric_from`: first column set flush right; -1 for none.
 std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
                        int numeric_from = 1);
+/// A table with its title above and its note below; cells are escaped. report.cpp
+std::string table_html(const ReportTable& table, int numeric_from = 1);
 std::string html_section(const std::string& id, const std::string& title, const std::string& body);
 
 enum class LiftPlace { onshore, inshore, offshore };

@@ -9,8 +9,6 @@
 namespace stillhook {
 namespace {
 
-constexpr double kGradientCharge = 3.0;  // simulations, docs/performance.md
-
 /// Kp and Kd of all lines together, up to gains that ask for the full pull at two degrees, or two degrees a second.
 std::vector<VariableSpec> usual_gains(const Case& c) {
   double pull = 0.0;
