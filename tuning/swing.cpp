@@ -194,11 +194,11 @@ class HangingPose {
     const Trajectory run = simulate(model, waiting(model, time), run_with);
     // A load that touches on its way, low over its target, has no decay to measure.
     if (run.status != RunStatus::completed || !run.contacts.empty()) return kNaN;
-    return decrement(model, run, axis, options.swings);
+    return decrement(model, run, axis, mode.period, options.swings);
   }
 
-  /// Of the mean lead of the hoist wires: peaks of one sign, from the first after the release on.
-  static double decrement(const Model& model, const Trajectory& run, int axis, int swings) {
+  /// Of the mean lead of the hoist wires, from the release on.
+  static double decrement(const Model& model, const Trajectory& run, int axis, double period, int swings) {
     std::vector<double> lead(run.time.size(), 0.0);
     int wires = 0;
     for (const WireSpec& w : model.specification().wires) {
@@ -208,17 +208,19 @@ class HangingPose {
       ++wires;
     }
     if (wires == 0) return kNaN;
-    std::vector<double> highs, lows;
-    for (std::size_t i = 1; i + 1 < lead.size(); ++i) {
-      if (lead[i] > lead[i - 1] && lead[i] >= lead[i + 1]) highs.push_back(lead[i] / wires);
-      if (lead[i] < lead[i - 1] && lead[i] <= lead[i + 1]) lows.push_back(lead[i] / wires);
-    }
-    const std::size_t n = static_cast<std::size_t>(swings);
-    if (highs.size() < n || lows.size() < n) return kNaN;
-    // Peak to peak, which a shifted middle does not disturb.
-    const double first = highs[0] - lows[0], last = highs[n - 1] - lows[n - 1];
+    // The range over each period, which neither a shifted middle nor the ripple of the wires disturbs.
+    const auto range = [&](int k) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t i = 0; i < lead.size(); ++i) {
+        if (run.time[i] < k * period || run.time[i] >= (k + 1) * period) continue;
+        low = std::min(low, lead[i]);
+        high = std::max(high, lead[i]);
+      }
+      return high - low;
+    };
+    const double first = range(0), last = range(swings - 1);
     if (!(last > 0.0) || !(first > 0.0)) return kNaN;
-    const double d = std::log(first / last) / (2.0 * std::numbers::pi * static_cast<double>(n - 1));
+    const double d = std::log(first / last) / (2.0 * std::numbers::pi * (swings - 1));
     return d / std::sqrt(1.0 + d * d);
   }
 
