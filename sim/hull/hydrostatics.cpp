@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "sim/hull/clipped_panel.h"
 #include "sim/hull/cut_panels.h"
 #include "sim/hull/mesh_file.h"
 #include "sim/hull/panel_strips.h"
+#include "sim/hull/wave_window.h"
 
 namespace stillhook {
 
@@ -52,17 +54,32 @@ class Hydrostatics final : public ForceElement {
     coordinates_.resize(static_cast<Eigen::Index>(r_.size()), 3);
     for (std::size_t i = 0; i < r_.size(); ++i) coordinates_.row(static_cast<Eigen::Index>(i)) = r_[i].transpose();
     largest_elevation_ = largest_elevation(*waves_);
+    window_.emplace(waves_, r_.size(), coordinates_.rowwise().norm().maxCoeff());
   }
 
   bool same_as(const ForceElement& other) const override {
     const auto* o = dynamic_cast<const Hydrostatics*>(&other);
     return o && o->weight_ == weight_ && o->model_ == model_ && o->r_ == r_ && *o->waves_ == *waves_;
   }
-  int scratch_size() const override { return 22 * static_cast<int>(r_.size()); }
+  int state_size() const override { return window_->state_size(); }
+  int scratch_size() const override { return sample_size() + window_->scratch_size(); }
+  // The window only helps to compute: where its nodes lie makes no difference worth knowing (wave_expansion.h).
+  bool has_history() const override { return false; }
+  bool advance_state_tangent(const Instant&, const Instant&, double, Memory, const BodyChange&, const BodyChange&,
+                             Eigen::Ref<MatrixX>) const override {
+    return true;
+  }
+  void start(const Instant&, Memory m) const override {
+    if (window_->used()) window_->start(m.state);
+  }
+  void begin_step(const Instant& before, double h, Memory m) const override {
+    if (window_->used()) window_->begin_step(before.t, h, before.body[body_], m.state);
+  }
 
-  void add_forces(const Instant& now, double, Memory m, ForceSum& out) const override {
+  void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override {
+    if (h == 0.0) m.state = {};  // statics: the pose may be anywhere
     Samples s = reachable(now, m);
-    sample(now, model_, false, s);
+    sample(now, model_, false, m, s);
     const Load load = load_of(integrate(s, now), now.body[body_].R_WB);
     out.add(body_, now.body[body_].R_WB * load.F_B, load.M_B);
   }
@@ -78,7 +95,7 @@ class Hydrostatics final : public ForceElement {
   void measure(const Instant& now, Memory m, std::span<double> out) const override {
     const Matrix3& R = now.body[body_].R_WB;
     Samples s = reachable(now, m);
-    sample(now, model_, false, s);
+    sample(now, model_, false, m, s);
     HeadIntegral I = integrate(s, now);
     out[0] = R.row(2).dot(load_of(I, R).F_B);
     if (model_ == FroudeKrylov::pressure) {
@@ -107,10 +124,11 @@ class Hydrostatics final : public ForceElement {
   };
 
   Samples reachable(const Instant& now, Memory m) const;
+  int sample_size() const { return 22 * static_cast<int>(r_.size()); }
   std::span<const Panel> panels(const Samples& s) const {
     return {panels_.data(), static_cast<std::size_t>(s.strips > 0 ? strips_[s.strips - 1].end_panel : 0)};
   }
-  void sample(const Instant& now, FroudeKrylov model, bool gradients, Samples& s) const;
+  void sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const;
   HeadIntegral integrate(const Samples& s, const Instant& now) const;
   void integrate_cut_panels(const Samples& s, bool tips, CutPanels& cut, LaneIntegrals& I) const;
   Load load_of(const HeadIntegral& I, const Matrix3& R_WB) const;
@@ -134,6 +152,7 @@ class Hydrostatics final : public ForceElement {
   MatrixX weights_;                                       // see head_weights
   Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates_;  // r_, an axis a column
   double largest_elevation_ = 0.0;                        // m
+  std::optional<WaveWindow> window_;
 };
 
 Hydrostatics::Samples Hydrostatics::reachable(const Instant& now, Memory m) const {
@@ -147,7 +166,8 @@ Hydrostatics::Samples Hydrostatics::reachable(const Instant& now, Memory m) cons
   return {m, strips, static_cast<std::size_t>(strips > 0 ? strips_[strips - 1].vertices : 0)};
 }
 
-void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Samples& s) const {
+void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m,
+                           Samples& s) const {
   const Matrix3& R = now.body[body_].R_WB;
   const Vector3& p = now.body[body_].p_WC;
   const std::size_t n = s.depth.size();
@@ -159,7 +179,15 @@ void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients
                                                                          R(i, 2) * vertices.col(2).array();
   WaveSamples wanted{s.depth, s.depth_x, s.depth_y, s.head, s.head_x, s.head_y, s.head_z};
   if (model == FroudeKrylov::volume) wanted.head = {};
-  waves_->sample(now.t, s.x, s.y, s.z, gradients, wanted);
+  if (!m.state.empty() && window_->holds(now.t, m.state)) {
+    const Memory of_window{m.state, m.scratch.subspan(static_cast<std::size_t>(sample_size()))};
+    window_->sample(now.t, now.body[body_], vertices, gradients, of_window, wanted);
+    for (std::size_t i = 0; i < wanted.head.size(); ++i) wanted.head[i] -= s.z[i];
+    if (gradients && !wanted.head.empty())
+      for (std::size_t i = 0; i < n; ++i) s.head_z[i] -= 1.0;
+  } else {
+    waves_->sample(now.t, s.x, s.y, s.z, gradients, wanted);
+  }
   for (std::size_t i = 0; i < n; ++i) s.depth[i] -= s.z[i];
   if (model == FroudeKrylov::pressure) {
     for (std::size_t i = 0; i < n; ++i) s.head[i] = s.depth[i] > 0.0 ? s.head[i] : 0.0;
@@ -284,11 +312,12 @@ void Hydrostatics::differentiate_cut_panel(const Samples& s, const Panel& panel,
   }
 }
 
-void Hydrostatics::add_jacobian(const Instant& now, double, Memory m, JacobianSum& out) const {
+void Hydrostatics::add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const {
+  if (h == 0.0) m.state = {};
   const Matrix3& R = now.body[body_].R_WB;
   const Vector3 k = R.row(2);
   Samples s = reachable(now, m);
-  sample(now, model_, true, s);
+  sample(now, model_, true, m, s);
   differentiate_panels(s, k);
 
   // Chain to the pose: d(value at a vertex) = g_W . dp + (r x g_B) . dtheta.
@@ -321,7 +350,7 @@ void Hydrostatics::add_jacobian(const Instant& now, double, Memory m, JacobianSu
 double Hydrostatics::potential_energy(const Instant& now, Memory m) const {
   // int d dV = -1/2 int d^2 n_z dS, and d^2 integrates to sum d_i m_i because d is linear.
   Samples s = reachable(now, m);
-  sample(now, FroudeKrylov::volume, false, s);
+  sample(now, FroudeKrylov::volume, false, m, s);
   const Vector3 k = now.body[body_].R_WB.row(2);
   double moment = 0.0;
   for (const Panel& panel : panels(s)) {

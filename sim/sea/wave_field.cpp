@@ -82,11 +82,14 @@ WaveField::WaveField(std::vector<WaveComponent> components, double ramp)
   if (components_.size() > kMaxWaveComponents) throw std::invalid_argument("too many wave components");
 }
 
-double WaveField::ramp(double t) const {
-  if (t >= ramp_) return 1.0;
-  if (t <= 0.0) return 0.0;
-  const double s = t / ramp_;
-  return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
+double WaveField::ramp(double t) const { return ramp_derivatives(t)[0]; }
+
+std::array<double, 3> WaveField::ramp_derivatives(double t) const {
+  if (t >= ramp_) return {1.0, 0.0, 0.0};
+  if (t <= 0.0) return {0.0, 0.0, 0.0};
+  const double s = t / ramp_, v = 1.0 - s;
+  return {s * s * s * (10.0 + s * (-15.0 + 6.0 * s)), 30.0 * s * s * v * v / ramp_,
+          60.0 * s * v * (v - s) / (ramp_ * ramp_)};
 }
 
 double WaveField::elevation(double x, double y, double t) const {

@@ -7,6 +7,7 @@
 // ch. 2; Wheeler 1970 for the stretching.)
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -40,8 +41,10 @@ class WaveField {
   bool calm() const { return components_.empty(); }
   const std::vector<WaveComponent>& components() const { return components_; }
 
-  /// r(t) and its time derivatives.
+  /// r(t).
   double ramp(double t) const;
+  /// r(t), r'(t) (1/s) and r''(t) (1/s2).
+  std::array<double, 3> ramp_derivatives(double t) const;
 
   /// Elevation (m) at (x, y) (m) and time t (s).
   double elevation(double x, double y, double t) const;
