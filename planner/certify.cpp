@@ -175,6 +175,22 @@ std::string certificate_text(const Certificate& c) {
   return text;
 }
 
+CertificateSummary certificate_summary(const Certificate& c) {
+  const auto mean = [](const SampleSummary& s) { return MeanSummary{s.mean, s.mean_low, s.mean_high}; };
+  CertificateSummary summary;
+  summary.conditions = static_cast<int>(c.scenarios.size());
+  summary.completed = c.completed;
+  summary.baseline_completed = c.baseline_completed;
+  summary.plan = mean(c.objective);
+  summary.baseline = mean(c.baseline_objective);
+  summary.improvement = mean(c.improvement);
+  for (const Certificate::OfTerm& t : c.terms)
+    summary.terms.push_back({t.metric, t.unit, mean(t.plan), mean(t.baseline)});
+  for (const Certificate::OfLimit& l : c.limits)
+    summary.limits.push_back({l.metric, l.broken, l.baseline_broken, l.bound, l.allowed});
+  return summary;
+}
+
 std::vector<ReportTable> certificate_tables(const Certificate& c) {
   const auto interval = [](double v, double low, double high) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", v, low, high);

@@ -7,6 +7,7 @@
 
 #include "planner/plan.h"
 #include "results/report.h"
+#include "results/summary.h"
 
 namespace stillhook {
 
@@ -50,6 +51,8 @@ Certificate certify(const Evaluator& evaluator, const Eigen::VectorXd& x, const 
 
 /// A few lines for the screen.
 std::string certificate_text(const Certificate& certificate);
+
+CertificateSummary certificate_summary(const Certificate& certificate);
 
 /// What a report says of it.
 std::vector<ReportTable> certificate_tables(const Certificate& certificate);

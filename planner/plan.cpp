@@ -54,8 +54,8 @@ PlanResult::Point point_of(const Evaluation& e) {
   return {e.usable ? e.objective : std::numeric_limits<double>::quiet_NaN(), e.usable && e.violation() <= 0.0};
 }
 
-/// The stage that follows exact gradients of the smooth problem. Returns the points worth starting from: the best of its
-/// evaluations by the metrics as they are, which each of them knows as well.
+/// The stage that follows exact gradients of the smooth problem. Returns the points worth starting from: the best of
+/// its evaluations by the metrics as they are, which each of them knows as well.
 std::vector<Eigen::VectorXd> follow_gradients(const Evaluator& evaluator, SearchProblem smooth, EvaluationStore& store,
                                               const PlanOptions& options, SearchReport& report) {
   const PlanSpec& plan = evaluator.base().plan;
@@ -148,9 +148,8 @@ StoreIdentity store_identity(const Case& c) {
   Node document = parse_document(c.resolved, c.file);
   document.remove("tune");
   if (Node* plan = document.find("plan"))
-    for (const char* key :
-         {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm",
-                            "gradient_algorithm", "gradient_evaluations", "certify"})
+    for (const char* key : {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm",
+                            "local_algorithm", "gradient_algorithm", "gradient_evaluations", "certify", "pareto"})
       plan->remove(key);
   StoreIdentity identity;
   identity.version = kVersion;

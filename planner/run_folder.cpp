@@ -20,7 +20,10 @@ constexpr std::array kFiles = {"case.toml",
                                "fitted.toml", "tuned.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
-                               "evaluations.sqlite-shm"};
+                               "evaluations.sqlite-shm",
+                               "front.sqlite",
+                               "front.sqlite-wal",
+                               "front.sqlite-shm"};
 
 /// What a run that was killed left half written.
 bool is_unfinished(const fs::path& file) {

@@ -1,9 +1,7 @@
 // What a plan hangs on: the slope of every metric of its problem by every variable, and what its limits cost.
 //
-// The price of a limit is its Lagrange multiplier: with the active limits g_i and bounds of x,
-//   min || grad f + sum_i m_i grad g_i + b ||,   m_i >= 0, b_j >= 0 at an upper bound, <= 0 at a lower one, else 0
-// Loosening limit i by one unit of its metric lowers the objective by m_i / scale_i. The residual says how far the point
-// is from satisfying the conditions of optimality (Nocedal & Wright 2006, ch. 12).
+// The price of a limit is its Lagrange multiplier (problems/search/multipliers.h): loosening limit i by one unit of its
+// metric lowers the objective by m_i / scale_i.
 #pragma once
 
 #include "planner/plan.h"
@@ -27,6 +25,8 @@ struct PlanSensitivities {
 /// At x, a column each variable of the evaluator's problem.
 PlanSensitivities plan_sensitivities(const Evaluator& evaluator, const Eigen::VectorXd& x);
 
-std::vector<ReportTable> sensitivity_tables(const Evaluator& evaluator, const PlanSensitivities& sensitivities);
+/// How the metrics change with the variables, and what the limits cost: for a report.
+SensitivityTable sensitivity_table(const Evaluator& evaluator, const PlanSensitivities& sensitivities);
+ReportTable price_table(const PlanSensitivities& sensitivities);
 
 }  // namespace stillhook

@@ -39,6 +39,13 @@ struct ScenarioSpec {
   double weight = 1.0;
 };
 
+/// The front between two metrics, of which both are better when smaller.
+struct ParetoSpec {
+  std::string first, second;             // empty = no front
+  int points = 5;                        // its two ends included
+  int evaluations = 12;                  // for each point
+};
+
 struct PlanSpec {
   enum class Aggregate { mean, worst, tail };
   std::vector<ObjectiveTerm> objective;
@@ -53,6 +60,7 @@ struct PlanSpec {
   std::string gradient_algorithm = "none";  // first stage, on the smooth problem with exact gradients
   int gradient_evaluations = 12;         // points with gradient
   int certify = 0;                       // fresh seeds or phases for each scenario that the finished plan is tried in
+  ParetoSpec pareto;
   double time_budget = 0.0;              // s of wall time, 0 = none (a time budget gives up reproducibility)
   int seed = 1;
 };

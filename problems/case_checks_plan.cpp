@@ -20,6 +20,7 @@ class PlanCheck {
     for (const ObjectiveTerm& term : case_.plan.objective)
       wants_metric("plan.objective." + as_step(term.metric), term.metric);
     check_plan_as_a_whole();
+    check_pareto();
     check_algorithm("global_algorithm", case_.plan.global_algorithm, true);
     check_algorithm("local_algorithm", case_.plan.local_algorithm, false);
     for (const VariableSpec& variable : case_.plan.variables) check_variable(variable);
@@ -51,6 +52,21 @@ class PlanCheck {
     const bool has_variables = !case_.plan.variables.empty(), has_terms = !case_.plan.objective.empty();
     if (has_variables && !has_terms) report("plan", "objective", "has no terms: there is nothing to minimise");
     if (has_terms && !has_variables) report("plan", "variables", "has no keys: there is nothing to search over");
+  }
+
+  void check_pareto() {
+    const ParetoSpec& p = case_.plan.pareto;
+    if (p.first.empty() && p.second.empty()) return;  // absent, or refused already
+    const std::string entry = "plan.pareto";
+    if (p.first == p.second) report(entry, "second", "is the first metric: a front needs two");
+    for (const auto& [key, metric] : {std::pair("first", p.first), std::pair("second", p.second)}) {
+      if (metric.empty()) continue;
+      wants_metric(entry, metric);
+      if (better_when_larger(metric))
+        report(entry, key, fmt::format("is better when larger; a front is drawn of metrics that are better when smaller, "
+                                       "got \"{}\"", metric));
+    }
+    if (case_.plan.variables.empty()) report(entry, "first", "needs [plan.variables]: there is nothing to search over");
   }
 
   void check_algorithm(const std::string& key, const std::string& name, bool global) {

@@ -146,10 +146,14 @@ Evaluation Evaluator::evaluate_smooth(const Eigen::VectorXd& x, const SmoothOpti
     for (std::size_t k = 0; k < smooth_names_.size(); ++k) {
       if (!seen.insert(smooth_names_[k]).second) continue;
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(slopes->slope.cols());
-      for (const SmoothOutcome& o : outcomes) sum += o.slope.row(static_cast<Eigen::Index>(k));
+      double weights = 0.0;
+      for (std::size_t s = 0; s < outcomes.size(); ++s) {
+        sum += scenarios_[s].weight * outcomes[s].slope.row(static_cast<Eigen::Index>(k));
+        weights += scenarios_[s].weight;
+      }
       slopes->metrics.push_back(smooth_names_[k]);
       slopes->slope.conservativeResize(slopes->slope.rows() + 1, Eigen::NoChange);
-      slopes->slope.bottomRows(1) = sum / static_cast<double>(outcomes.size());
+      slopes->slope.bottomRows(1) = sum / weights;
     }
   }
   return aggregated_smooth(outcomes, gradient);

@@ -160,6 +160,10 @@ std::vector<std::string> metric_names(const Specification& specification) {
   return names;
 }
 
+bool better_when_larger(const std::string& name) {
+  return name.starts_with("slack_ratio_min") || name.starts_with("clearance_min");
+}
+
 bool metric_exists(const std::string& name, const Specification& specification) {
   const MetricDefinition* d = metric_definition(name);
   if (!d) return false;

@@ -63,6 +63,9 @@ std::vector<std::string> metric_names(const Specification& specification);
 /// True if `name` is in the catalogue for the elements of this specification.
 bool metric_exists(const std::string& name, const Specification& specification);
 
+/// True for the metrics that want to be large: least clearances and slack ratios.
+bool better_when_larger(const std::string& name);
+
 /// Computes every metric that applies. A run that diverged yields the metrics of the part that ran, with its status.
 Metrics compute_metrics(const Specification& specification, const Trajectory& trajectory);
 

@@ -56,6 +56,44 @@ void add_search(const Summary& summary, Json& document) {
                          {"plan", number(v.plan)}});
 }
 
+Json mean_json(const MeanSummary& m) {
+  return {{"mean", number(m.mean)}, {"low", number(m.low)}, {"high", number(m.high)}};
+}
+
+Json certificate_json(const CertificateSummary& c) {
+  Json out = {{"conditions", c.conditions},
+              {"completed", c.completed},
+              {"baseline_completed", c.baseline_completed},
+              {"objective", {{"plan", mean_json(c.plan)}, {"baseline", mean_json(c.baseline)}}},
+              {"improvement", mean_json(c.improvement)},
+              {"terms", Json::array()},
+              {"limits", Json::array()}};
+  for (const CertificateSummary::Term& t : c.terms)
+    out["terms"].push_back(
+        {{"name", t.name}, {"unit", t.unit}, {"plan", mean_json(t.plan)}, {"baseline", mean_json(t.baseline)}});
+  for (const CertificateSummary::Limit& l : c.limits)
+    out["limits"].push_back({{"name", l.name},
+                             {"broken", l.broken},
+                             {"baseline_broken", l.baseline_broken},
+                             {"share_at_most", number(l.share_at_most)},
+                             {"allowed", number(l.allowed)}});
+  return out;
+}
+
+Json pareto_json(const ParetoSummary& p) {
+  Json out = {{"first", p.first}, {"second", p.second}, {"points", Json::array()}};
+  for (const ParetoSummary::Point& point : p.points) {
+    Json variables = Json::array();
+    for (const double v : point.variables) variables.push_back(number(v));
+    out["points"].push_back({{"first", number(point.first)},
+                             {"second", number(point.second)},
+                             {"on_front", point.on_front},
+                             {"within_limits", point.within_limits},
+                             {"variables", variables}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string status_name(RunStatus status) {
@@ -105,6 +143,8 @@ std::string summary_json(const Summary& summary) {
   document["metrics"] = metrics_json(summary.metrics);
   document["limits"] = limits_json(summary.limits);
   add_search(summary, document);
+  if (summary.certificate) document["certificate"] = certificate_json(*summary.certificate);
+  if (summary.pareto) document["pareto"] = pareto_json(*summary.pareto);
   if (!summary.estimates.empty()) {
     Json& estimates = document["estimates"] = Json::array();
     for (const EstimateSummary& e : summary.estimates)

@@ -41,6 +41,40 @@ struct EstimateSummary {
   double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// A mean over fresh conditions with its 90 % interval.
+struct MeanSummary {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What a plan promises in conditions that its search has not seen.
+struct CertificateSummary {
+  struct Limit {
+    std::string name;
+    int broken = 0, baseline_broken = 0;
+    double share_at_most = 1.0, allowed = 0.0;  // 95 % bound of the share that breaks it; share allowed
+  };
+  struct Term {
+    std::string name, unit;
+    MeanSummary plan, baseline;
+  };
+  int conditions = 0, completed = 0, baseline_completed = 0;
+  MeanSummary plan, baseline, improvement;  // of the objective; improvement: paired
+  std::vector<Term> terms;
+  std::vector<Limit> limits;
+};
+
+/// A front between two metrics; values in the metrics' units.
+struct ParetoSummary {
+  struct Point {
+    double first = std::numeric_limits<double>::quiet_NaN(), second = std::numeric_limits<double>::quiet_NaN();
+    bool on_front = false, within_limits = false;
+    std::vector<double> variables;  // as in Summary::variables
+  };
+  std::string first, second;
+  std::vector<Point> points;
+};
+
 struct Summary {
   static constexpr int kSchemaVersion = 1;
   std::string case_name, verb, sea;  // sea: name of the sea state
@@ -54,6 +88,8 @@ struct Summary {
   std::optional<ObjectiveSummary> objective;  // searches
   std::optional<SearchSummary> search;
   std::vector<VariableSummary> variables;
+  std::optional<CertificateSummary> certificate;
+  std::optional<ParetoSummary> pareto;
   std::vector<EstimateSummary> estimates;  // fits
   std::vector<std::string> warnings;       // what must be known before the numbers are used, one sentence each
 };
@@ -69,8 +105,8 @@ Summary summarise(const Specification& specification, const Trajectory& trajecto
 /// and infinities become null.
 std::string summary_json(const Summary& summary);
 
-/// Reads a file that write_summary() has written: what concerns the run, that is everything but objective, search,
-/// variables and estimates. null becomes NaN. Throws FileError that names the file and what is missing or wrong in it.
+/// Reads a file that write_summary() has written: what concerns the run, that is everything but what a search or
+/// a fit adds. null becomes NaN. Throws FileError that names the file and what is missing or wrong in it.
 Summary read_summary(const std::string& path);
 
 /// Writes summary_json() to a file, whole or not at all. Throws FileError.

@@ -6,13 +6,14 @@
 #include <chrono>
 #include <exception>
 
+#include "planner/certify.h"
 #include "planner/cli/commands.h"
 #include "planner/cli/hydro_progress.h"
 #include "planner/cli/interrupt.h"
 #include "planner/cli/progress.h"
 #include "planner/cli/run_files.h"
 #include "planner/cli/tables.h"
-#include "planner/certify.h"
+#include "planner/pareto.h"
 #include "planner/plan_results.h"
 #include "planner/sensitivity.h"
 #include "planner/version.h"
@@ -69,7 +70,8 @@ void add_new(std::vector<std::string>& warnings, const std::vector<std::string>&
 class Conclusion {
  public:
   Conclusion(const CommonOptions& options, const RunFolder& folder, const Evaluator& evaluator,
-             const PlanResult& result, const std::string& statement, double wall, const std::atomic<bool>& stop)
+             const PlanResult& result, const std::optional<TracedFront>& front, const std::string& statement,
+             double wall, const std::atomic<bool>& stop)
       : options_(options),
         folder_(folder),
         evaluator_(evaluator),
@@ -77,7 +79,11 @@ class Conclusion {
         statement_(statement),
         wall_(wall),
         stop_(stop),
-        search_(search_section(evaluator, result, wall)) {}
+        search_(search_section(evaluator, result, wall)) {
+    if (!front) return;
+    search_.pareto = front_drawing(*front);
+    summary_of_front_ = front_summary(*front);
+  }
 
   int finish() {
     if (result_.interrupted)
@@ -91,6 +97,8 @@ class Conclusion {
     summary_.program_version = kVersion;
     summary_.wall = wall_;
     add_search(evaluator_, result_, summary_);
+    if (certificate_) summary_.certificate = certificate_summary(*certificate_);
+    summary_.pareto = summary_of_front_;
     write_or_refuse([&] { write_summary(summary_, folder_.summary()); });
     print();
     return exit_code();
@@ -119,8 +127,9 @@ class Conclusion {
     }
     summary_.limits = worst_limits(limits);
     write_history(folder_, run, planned, "plan");
+    const std::vector<ReportTable> tables = judgement(x);  // adds to search_
     write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
-                     {history_note(evaluator_, governing)}, judgement(x));
+                     {history_note(evaluator_, governing)}, tables);
   }
 
   /// Sensitivities where the case follows gradients, certification where it asks for it.
@@ -135,8 +144,12 @@ class Conclusion {
     }
     if (plan.gradient_algorithm != "none") {
       const PlanSensitivities sensitivities = plan_sensitivities(evaluator_, x);
-      if (!sensitivities.valid) summary_.warnings.push_back("the derivatives at the plan are not usable: no sensitivities");
-      for (ReportTable& table : sensitivity_tables(evaluator_, sensitivities)) tables.push_back(std::move(table));
+      if (!sensitivities.valid)
+        summary_.warnings.push_back("the derivatives at the plan are not usable: no sensitivities");
+      if (sensitivities.valid) {
+        search_.sensitivities = sensitivity_table(evaluator_, sensitivities);
+        tables.push_back(price_table(sensitivities));
+      }
     }
     return tables;
   }
@@ -148,6 +161,7 @@ class Conclusion {
     }
     if (result_.search.evaluations > 0) fmt::print("{}\n", search_text(search_));
     if (certificate_) fmt::print("{}\n", certificate_text(*certificate_));
+    if (summary_of_front_) fmt::print("{}\n", front_text(*summary_of_front_));
     if (result_.has_plan()) fmt::print("Plan: {}\n", folder_.plan());
     if (result_.has_plan() && !result_.interrupted) fmt::print("Report: {}\n", folder_.report());
   }
@@ -174,6 +188,7 @@ class Conclusion {
   const std::atomic<bool>& stop_;
   SearchSection search_;
   std::optional<Certificate> certificate_;
+  std::optional<ParetoSummary> summary_of_front_;
   Summary summary_;
 };
 
@@ -212,10 +227,20 @@ int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
   with.improved = [&](const Eigen::VectorXd& x) {
     write_or_refuse([&] { write_file(folder.plan(), case_text(evaluator.case_at(x), statement)); });
   };
-  const PlanResult result = solve_plan(evaluator, store, with);
+  PlanResult result = solve_plan(evaluator, store, with);
+  std::optional<TracedFront> front;
+  if (!c.plan.pareto.first.empty() && !result.interrupted && result.has_plan()) {
+    const Evaluator of_front = front_evaluator(evaluator, result.baseline, &stop);
+    EvaluationStore front_store(folder.front_store(), front_identity(c), of_front.problem());
+    PlanOptions tracing;
+    tracing.stop = &stop;
+    tracing.progress = [&](const SearchProgress& p) { progress.update(1.0, "front: " + progress_text(p)); };
+    front = trace_front(of_front, result, front_store, tracing);
+    if (front->interrupted) result.interrupted = true;
+  }
   progress.clear();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  return Conclusion(options, folder, evaluator, result, statement, wall.count(), stop).finish();
+  return Conclusion(options, folder, evaluator, result, front, statement, wall.count(), stop).finish();
 }
 
 }  // namespace stillhook

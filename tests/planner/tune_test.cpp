@@ -43,8 +43,14 @@ TEST_CASE("plan follows gradients and certifies in conditions it has not seen", 
   REQUIRE(r.code == 0);
   CHECK_THAT(r.out, Contains("slsqp+cobyla") && Contains("In 6 fresh conditions"));
   CHECK_THAT(content(folder / "plan/report.html"),
-             Contains("What moves the objective") && Contains("conditions the search has not seen"));
+             Contains("What moves what at the plan") && Contains("What the limits cost") &&
+                 Contains("conditions the search has not seen"));
   const auto summary = nlohmann::json::parse(content(folder / "plan/summary.json"));
+  const auto& certificate = summary["certificate"];
+  CHECK(certificate["conditions"] == 6);
+  CHECK(certificate["improvement"]["mean"].get<double>() ==
+        Approx(certificate["objective"]["baseline"]["mean"].get<double>() -
+               certificate["objective"]["plan"]["mean"].get<double>()));
   CHECK(summary["objective"]["plan"].get<double>() < summary["objective"]["baseline"].get<double>());
 }
 
