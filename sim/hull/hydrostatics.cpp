@@ -130,11 +130,13 @@ class Hydrostatics final : public ForceElement {
   }
   void sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const;
   HeadIntegral integrate(const Samples& s, const Instant& now) const;
+  template <typename Visitor>
+  void for_cut_panels(const Samples& s, const Instant& now, Visitor visit) const;
   void integrate_cut_panels(const Samples& s, bool tips, CutPanels& cut, LaneIntegrals& I) const;
   Load load_of(const HeadIntegral& I, const Matrix3& R_WB) const;
-  void differentiate_panels(const Samples& s, const Vector3& k_B) const;
-  void differentiate_wet_panel(const Samples& s, const Panel& panel, const Vector3& S) const;
-  void differentiate_cut_panel(const Samples& s, const Panel& panel, const Vector3& S) const;
+  void differentiate_panels(const Samples& s, const Instant& now) const;
+  void take_off_linear(const Samples& s, const Panel& panel, const Vector3& S, int wet) const;
+  void add_cut_panel(const Samples& s, const Panel& panel, const Vector3& S, int wet) const;
 
   // Area vector that the pressure acts on: the whole of it, or its vertical part.
   Vector3 effective(const Vector3& S_B, const Vector3& k_B) const {
@@ -228,6 +230,23 @@ void Hydrostatics::integrate_cut_panels(const Samples& s, bool tips, CutPanels& 
   cut.count = 0;
 }
 
+// Calls visit(panel, wet_corners) for the panels that the surface cuts.
+template <typename Visitor>
+void Hydrostatics::for_cut_panels(const Samples& s, const Instant& now, Visitor visit) const {
+  const Vector3 up = now.body[body_].R_WB.row(2);
+  const double z = now.body[body_].p_WC.z();
+  for (int i = 0; i < s.strips; ++i) {
+    const PanelStrip& strip = strips_[i];
+    const double middle = z + up.dot(strip.centre), half = up.cwiseAbs().dot(strip.half);
+    if (middle + half < -largest_elevation_ || middle - half > largest_elevation_) continue;
+    for (int k = strip.first_panel; k < strip.end_panel; ++k) {
+      const Panel& panel = panels_[k];
+      const double d[3] = {s.depth[panel.corner[0]], s.depth[panel.corner[1]], s.depth[panel.corner[2]]};
+      if (const int wet = clipped_panel::wet_corners(d); wet != 0 && wet != 7) visit(panel, wet);
+    }
+  }
+}
+
 HeadIntegral Hydrostatics::integrate(const Samples& s, const Instant& now) const {
   HeadIntegral I;
   if (s.strips == 0) return I;
@@ -236,24 +255,13 @@ HeadIntegral Hydrostatics::integrate(const Samples& s, const Instant& now) const
   sums.noalias() = weights_.topRows(n).transpose() * VectorX::Map(s.head.data(), n);
   I.n = sums.head<3>();
   I.rn = Eigen::Map<const Matrix3>(sums.data() + 3);
-  const Vector3 up = now.body[body_].R_WB.row(2);
-  const double z = now.body[body_].p_WC.z();
   CutPanels tips, quadrilaterals;
   LaneIntegrals cut;
-  for (int i = 0; i < s.strips; ++i) {
-    const PanelStrip& strip = strips_[i];
-    const double middle = z + up.dot(strip.centre), half = up.cwiseAbs().dot(strip.half);
-    if (middle + half < -largest_elevation_ || middle - half > largest_elevation_) continue;
-    for (int k = strip.first_panel; k < strip.end_panel; ++k) {
-      const Panel& panel = panels_[k];
-      const double d[3] = {s.depth[panel.corner[0]], s.depth[panel.corner[1]], s.depth[panel.corner[2]]};
-      const int wet = clipped_panel::wet_corners(d), lone = kLoneCorner[wet];
-      if (wet == 0 || wet == 7) continue;
-      const bool tip = wet == 1 || wet == 2 || wet == 4;
-      if ((tip ? tips : quadrilaterals).add(panel, lone))
-        integrate_cut_panels(s, tip, tip ? tips : quadrilaterals, cut);
-    }
-  }
+  for_cut_panels(s, now, [&](const Panel& panel, int wet) {
+    const bool tip = wet == 1 || wet == 2 || wet == 4;
+    if ((tip ? tips : quadrilaterals).add(panel, kLoneCorner[wet]))
+      integrate_cut_panels(s, tip, tip ? tips : quadrilaterals, cut);
+  });
   integrate_cut_panels(s, true, tips, cut);
   integrate_cut_panels(s, false, quadrilaterals, cut);
   for (int j = 0; j < 3; ++j) {
@@ -269,40 +277,49 @@ Hydrostatics::Load Hydrostatics::load_of(const HeadIntegral& I, const Matrix3& R
   return {-weight_ * k.dot(I.n) * k, -weight_ * (I.rn * k).cross(k)};
 }
 
-// Derivatives of sum S m_i and sum (m_i r_i) x S by the depth and head of every vertex, S held.
-void Hydrostatics::differentiate_panels(const Samples& s, const Vector3& k_B) const {
+// Derivatives of sum S m_i and sum (m_i r_i) x S by the depth and head of every vertex, S held. As in integrate(): the
+// linear sum over all panels, whose factors are constants of the vertices, and what cut panels have more.
+void Hydrostatics::differentiate_panels(const Samples& s, const Instant& now) const {
+  const Vector3 k_B = now.body[body_].R_WB.row(2);
   std::ranges::fill(s.sensitivity, 0.0);
-  for (const Panel& panel : panels(s)) {
-    double d[3];
-    for (int i = 0; i < 3; ++i) d[i] = s.depth[panel.corner[i]];
-    const int wet = clipped_panel::wet_corners(d);
-    if (wet == 0) continue;
-    const Vector3 S = effective(panel.S_B, k_B);
-    if (wet == 7)
-      differentiate_wet_panel(s, panel, S);
-    else
-      differentiate_cut_panel(s, panel, S);
-  }
-}
-
-// dm_i/dh_j is 1/12, and 1/6 for i = j; the depths do not matter.
-void Hydrostatics::differentiate_wet_panel(const Samples& s, const Panel& panel, const Vector3& S) const {
-  const Vector3 sum = r_[panel.corner[0]] + r_[panel.corner[1]] + r_[panel.corner[2]];
-  for (const int v : panel.corner) {
+  for (std::size_t v = 0; v < s.depth.size(); ++v) {
+    if (!(s.depth[v] > 0.0)) continue;  // the head of a dry vertex is zero whatever moves
+    const auto row = static_cast<Eigen::Index>(v);
+    HeadIntegral I;
+    I.n = weights_.row(row).head<3>();
+    for (int i = 0; i < 9; ++i) I.rn(i) = weights_(row, 3 + i);
     Eigen::Map<Vector6> to(&s.sensitivity[12 * v + 6]);
-    to.head<3>() += S / 3.0;
-    to.tail<3>() += ((sum + r_[v]) / 12.0).cross(S);
+    if (model_ == FroudeKrylov::pressure)
+      to << I.n, I.r_cross_n();
+    else
+      to << k_B.dot(I.n) * k_B, (I.rn * k_B).cross(k_B);
+  }
+  for_cut_panels(s, now, [&](const Panel& panel, int wet) {
+    const Vector3 S = effective(panel.S_B, k_B);
+    take_off_linear(s, panel, S, wet);
+    add_cut_panel(s, panel, S, wet);
+  });
+}
+
+// On a wet panel dm_i/dh_j is 1/12, and 1/6 for i = j; the depths do not matter.
+void Hydrostatics::take_off_linear(const Samples& s, const Panel& panel, const Vector3& S, int wet) const {
+  const Vector3 sum = r_[panel.corner[0]] + r_[panel.corner[1]] + r_[panel.corner[2]];
+  for (int i = 0; i < 3; ++i) {
+    if (!(wet & (1 << i))) continue;
+    const int v = panel.corner[i];
+    Eigen::Map<Vector6> to(&s.sensitivity[12 * v + 6]);
+    to.head<3>() -= S / 3.0;
+    to.tail<3>() -= ((sum + r_[v]) / 12.0).cross(S);
   }
 }
 
-void Hydrostatics::differentiate_cut_panel(const Samples& s, const Panel& panel, const Vector3& S) const {
+void Hydrostatics::add_cut_panel(const Samples& s, const Panel& panel, const Vector3& S, int wet) const {
   Dual depth[3], head[3], m[3];
   for (int i = 0; i < 3; ++i) {
     depth[i] = Dual(s.depth[panel.corner[i]], i);
     head[i] = Dual(s.head[panel.corner[i]], 3 + i);
   }
-  const double d[3] = {depth[0].a, depth[1].a, depth[2].a};
-  clipped_panel::moments(clipped_panel::wet_corners(d), depth, head, m);
+  clipped_panel::moments(wet, depth, head, m);
   for (int j = 0; j < 6; ++j) {
     Vector3 q = Vector3::Zero();
     for (int i = 0; i < 3; ++i) q += m[i].v[j] * r_[panel.corner[i]];
@@ -318,7 +335,7 @@ void Hydrostatics::add_jacobian(const Instant& now, double h, Memory m, Jacobian
   const Vector3 k = R.row(2);
   Samples s = reachable(now, m);
   sample(now, model_, true, m, s);
-  differentiate_panels(s, k);
+  differentiate_panels(s, now);
 
   // Chain to the pose: d(value at a vertex) = g_W . dp + (r x g_B) . dtheta.
   Matrix6 K = Matrix6::Zero();
