@@ -22,10 +22,18 @@ struct Lift {
 
 using Condition = std::function<Specification(const Specification&)>;
 
-Lift lift_of(const Case& c, const Condition& condition) {
-  const auto model =
-      std::make_shared<const Model>(build_model(condition ? condition(c.specification) : c.specification));
-  return {model, std::make_shared<const Operation>(build_operation(*model))};
+Specification specification_of(const Case& c, const Condition& condition) {
+  return condition ? condition(c.specification) : c.specification;
+}
+
+Lift lift_of(const Case& c, const Condition& condition, double until) {
+  const auto model = std::make_shared<const Model>(build_model(specification_of(c, condition)));
+  return {model, std::make_shared<const Operation>(build_operation(*model, until))};
+}
+
+Lift lift_like(const Case& c, const Condition& condition, const Lift& base) {
+  const auto model = std::make_shared<const Model>(build_model_like(specification_of(c, condition), *base.model));
+  return {model, std::make_shared<const Operation>(build_operation_like(*model, *base.model, *base.operation))};
 }
 
 // A key of the operation's timing leaves the model and every pose as they are.
@@ -38,7 +46,7 @@ LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double
   const double x = key_value(c, key), scale = std::max(std::abs(x), kSmallestShare * range);
   const auto at = [&](double value) {
     const Case changed = with_values(c, {{key, value}});
-    if (!is_timing(key, c, changed)) return lift_of(changed, condition);
+    if (!is_timing(key, c, changed)) return lift_like(changed, condition, base);
     return Lift{base.model, std::make_shared<const Operation>(
                                 retimed_operation(*base.model, changed.specification.operation, *base.operation))};
   };
@@ -74,7 +82,8 @@ LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double
 }  // namespace
 
 TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const RunOptions& options) {
-  const Lift base = lift_of(c, request.condition);
+  const double until = request.until > 0.0 ? request.until : c.specification.solver.max_duration;
+  const Lift base = lift_of(c, request.condition, until);
   const int keys = static_cast<int>(request.keys.size());
   std::vector<LiftTwin> twins(request.keys.size());
   std::vector<std::exception_ptr> errors(request.keys.size());
@@ -103,6 +112,7 @@ TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const
   TangentOptions wanted;
   wanted.channels = request.channels;
   wanted.by_initial_state = request.by_initial_state;
+  if (request.start_change) wanted.start_change = request.start_change(result);
   wanted.growth_limit = request.growth_limit;
   try {
     result.trajectory = simulate_with_tangents(*base.model, *base.operation, run_with, twins, wanted, result.tangents);

@@ -14,6 +14,8 @@
 
 namespace stillhook {
 
+struct TangentRun;
+
 struct TangentRequest {
   std::vector<std::string> keys;      // as in [plan.variables]; "*" moves several entries together
   std::vector<double> ranges;         // how far each key may move, in its unit; empty = max(|value|, 1)
@@ -25,6 +27,9 @@ struct TangentRequest {
   /// Derivatives with respect to the initial state as well, as further columns after those of the keys, in the order
   /// of state_directions() (tangent.h).
   bool by_initial_state = false;
+  /// Instead: how `from` changes, rows as state_directions(), a column for each key, then further columns of the
+  /// derivatives. It is given the static poses and widths of the twins, and nothing else of the run.
+  std::function<MatrixX(const TangentRun&)> start_change;
   double until = 0.0;           // s; 0 = as the case says
   double growth_limit = 1e4;    // see TangentOptions
 };

@@ -21,14 +21,19 @@ constexpr double kCalm = -1.0;         // s, before the waves start
 constexpr double kAngleHeld = 1e-10;   // rad
 constexpr double kLengthProbe = 1e-3;  // m
 constexpr int kHoldRounds = 20;
+const HydroProgress kSilent;
 constexpr double kLoose = 2.0;  // length over distance of a wire that is out of the way
 
 }  // namespace
 
 class ModelBuilder {
  public:
-  ModelBuilder(const Specification& specification, const HydroProgress& progress) : progress_(progress) {
+  ModelBuilder(const Specification& specification, const HydroProgress& progress, const Model* other = nullptr)
+      : progress_(progress), other_(other) {
     model_.specification_ = specification;
+    if (other_ && (other_->system().bodies.size() != spec().bodies.size() ||
+                   other_->initial_lengths().size() != spec().wires.size()))
+      other_ = nullptr;
   }
 
   Model build() {
@@ -42,9 +47,13 @@ class ModelBuilder {
     choose_lengths();
     add_elements();
     if (spec().solver.static_start) {
-      find_equilibrium();
+      if (other_)
+        begin_at_other();
+      else
+        find_equilibrium();
       refuse_slack_supports();
     }
+    model_.laid_out_ = state();
     add_hydrodynamics();
     start();
     return std::move(model_);
@@ -140,9 +149,41 @@ class ModelBuilder {
     system().select_independent_rows(state());
   }
 
+  // The pose of the other lift, if that is an equilibrium of this one and gives its wires the same lengths. Else the
+  // search begins there, with friction holding from the given pose as ever.
+  void begin_at_other() {
+    SystemWorkspace work = system().make_workspace();
+    system().start_elements(state(), work);
+    const SystemState given = state();
+    const std::vector<double> lengths = model_.initial_lengths_;
+    const SystemState& there = other_->laid_out_;
+    state() = there;
+    model_.initial_lengths_ = other_->initial_lengths();
+    rebuild_wires();
+    taken_over_ = true;
+    for (std::size_t i = 0; i < spec().wires.size() && taken_over_; ++i) {
+      const WireSpec& w = spec().wires[i];
+      if (!w.hold_joint.empty()) continue;  // the joint stands where the other's does
+      const double length = by_slack(i) ? build_.end_distance(w) + w.slack : lengths[i];
+      taken_over_ = length == model_.initial_lengths_[i] && !(by_slack(i) && w.slack < 0.0);
+    }
+    taken_over_ = taken_over_ && same_statics(system(), other_->system(), there);
+    if (taken_over_) return;
+    state() = given;
+    state().body = there.body;
+    state().lambda = there.lambda;
+    find_equilibrium();
+  }
+
   void settle() {
     state().t = kCalm;
-    const EquilibriumReport report = solve_equilibrium(system(), state());
+    EquilibriumReport report;
+    if (other_) {
+      const SystemState before = state();
+      report = solve_equilibrium(system(), state(), true);
+      if (!report.converged) state() = before;
+    }
+    if (!report.converged) report = solve_equilibrium(system(), state());
     state().t = 0.0;
     if (report.converged) return;
     refuse_what_cannot_float();
@@ -301,8 +342,8 @@ class ModelBuilder {
   };
 
   std::unique_ptr<const ForceElement> element_of(const HydrodynamicsGroup& group) {
-    auto together = build_hydrodynamics(group.hulls, group.set, model_.waves_, spec().sea, spec().panel_method,
-                                        model_.warnings_);
+    auto together =
+        build_hydrodynamics(group.hulls, group.set, model_.waves_, spec().sea, spec().panel_method, model_.warnings_);
     const std::string& until = group.hulls.front().afloat.body->hydrodynamics.coupled_until;
     if (until.empty() || group.hulls.size() == 1) return together;
     const std::vector<PhaseSpec>& phases = spec().operation.phases;
@@ -313,8 +354,7 @@ class ModelBuilder {
                                "must be a phase of the operation after the first, got '" + until + "'");
     std::vector<std::unique_ptr<const ForceElement>> apart;
     for (const HydrodynamicsBody& hull : group.hulls) {
-      const auto set =
-          coefficient_set({&hull.afloat, 1}, spec().sea, spec().panel_method, model_.warnings_, progress_);
+      const auto set = coefficient_set({&hull.afloat, 1}, spec().sea, spec().panel_method, model_.warnings_, progress_);
       apart.push_back(
           build_hydrodynamics({hull}, set, model_.waves_, spec().sea, spec().panel_method, model_.warnings_));
     }
@@ -361,8 +401,8 @@ class ModelBuilder {
       if (stiffness[dof] <= 0.0)
         throw SpecificationError("bodies." + body.name, "critical_fraction",
                                  "the hull is not stable in this degree of freedom, so it has no critical damping");
-      const double frequency =
-          natural_frequency(stiffness[dof], inertia[dof], [&](double w) { return model_.added_mass(hull, w)(dof, dof); });
+      const double frequency = natural_frequency(stiffness[dof], inertia[dof],
+                                                 [&](double w) { return model_.added_mass(hull, w)(dof, dof); });
       inertia[dof] = stiffness[dof] / (frequency * frequency);
     }
     return critical_damping(body.hydrodynamics.critical_fraction, stiffness, inertia);
@@ -384,7 +424,10 @@ class ModelBuilder {
 
   void start() {
     SystemWorkspace work = system().make_workspace();
-    if (spec().solver.static_start) {
+    if (taken_over_ && same_statics(system(), other_->system(), other_->initial_state())) {
+      state() = other_->initial_state();
+      system().settle_elements(state(), work);
+    } else if (spec().solver.static_start) {
       settle();
     } else {
       state().acceleration = VectorX::Zero(system().coordinates());
@@ -394,6 +437,8 @@ class ModelBuilder {
   }
 
   const HydroProgress& progress_;
+  const Model* other_;
+  bool taken_over_ = false;  // the other's equilibrium, so far
   Model model_;
   ElementBuilder build_{model_};
   std::size_t first_wire_ = 0;
@@ -401,6 +446,10 @@ class ModelBuilder {
 
 Model build_model(const Specification& specification, const HydroProgress& progress) {
   return ModelBuilder(specification, progress).build();
+}
+
+Model build_model_like(const Specification& specification, const Model& other) {
+  return ModelBuilder(specification, kSilent, &other).build();
 }
 
 }  // namespace stillhook

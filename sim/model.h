@@ -55,11 +55,16 @@ class Model {
   std::vector<double> initial_lengths_;
   std::vector<std::string> redundant_joints_;
   SystemState initial_state_;
+  SystemState laid_out_;  // where the initial lengths were found, before there were hydrodynamics
 };
 
 /// Builds the elements, assembles the joints, finds the initial static equilibrium, gets the hulls' coefficients.
 /// `progress` hears of a panel computation, if there has to be one (coefficient_source.h). Throws SpecificationError.
 Model build_model(const Specification& specification, const HydroProgress& progress = {});
+
+/// The same for a specification that differs little from that of `other`. Its initial equilibrium is taken over if it is
+/// one of this lift as well; else it is where the search begins.
+Model build_model_like(const Specification& specification, const Model& other);
 
 /// Every channel of the model at a state, by name (see trajectory.h for the names).
 std::map<std::string, double> channel_values(const Model& model, const SystemState& state);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/lifting/contact.h"
+#include "sim/multibody/equilibrium.h"
 #include "sim/statics.h"
 
 namespace stillhook {
@@ -56,23 +58,131 @@ ProfileSpec with_period(const Model& model, ProfileSpec spec, const StaticPose& 
   return spec;
 }
 
-// Moves the drives of `state` to the end of the phase and returns each move's travel.
-std::vector<double> work_out_travels(const Model& model, const PhaseSpec& spec, SystemState& state) {
+bool same_target(const CoordinateSpec& a, const CoordinateSpec& b) {
+  return a.body == b.body && a.point == b.point && a.axis == b.axis && a.relative_to == b.relative_to &&
+         a.joint == b.joint && a.wire == b.wire;
+}
+
+bool same_end(const MoveSpec& a, const MoveSpec& b) {
+  return a.drive == b.drive && a.travel == b.travel && a.goal.has_value() == b.goal.has_value() &&
+         (!a.goal || (same_target(*a.goal, *b.goal) && a.goal_value == b.goal_value));
+}
+
+// What a phase asks of its end: drives moved by their travels, and goals.
+std::vector<StaticGoal> move_drives(const Model& model, const PhaseSpec& spec, SystemState& state) {
   std::vector<StaticGoal> goals;
-  std::vector<double> before;
   for (const MoveSpec& move : spec.moves) {
     const int drive = model.drive_index(move.drive);
-    before.push_back(state.drive[drive].position);
     if (move.travel) state.drive[drive].position += *move.travel;
     if (move.goal) goals.push_back({drive, *move.goal, move.goal_value});
   }
-  solve_static(model, state, goals, entry_of(spec));
+  return goals;
+}
+
+std::vector<double> travels_between(const Model& model, const PhaseSpec& spec, const SystemState& before,
+                                    const SystemState& after) {
   std::vector<double> travels;
-  for (std::size_t i = 0; i < spec.moves.size(); ++i)
-    travels.push_back(spec.moves[i].travel ? *spec.moves[i].travel
-                                           : state.drive[model.drive_index(spec.moves[i].drive)].position - before[i]);
+  std::vector<DriveState> at = before.drive;
+  for (const MoveSpec& move : spec.moves) {
+    DriveState& drive = at[static_cast<std::size_t>(model.drive_index(move.drive))];
+    const double to = after.drive[static_cast<std::size_t>(model.drive_index(move.drive))].position;
+    travels.push_back(move.travel ? *move.travel : to - drive.position);
+    drive.position += travels.back();
+  }
   return travels;
 }
+
+// The end of the phase that begins in `state`.
+SystemState end_of_phase(const Model& model, const PhaseSpec& spec, SystemState state) {
+  if (spec.moves.empty()) return state;
+  const std::vector<StaticGoal> goals = move_drives(model, spec, state);
+  solve_static(model, state, goals, entry_of(spec));
+  return state;
+}
+
+bool same_positions(const SystemState& a, const SystemState& b) {
+  for (std::size_t i = 0; i < a.body.size(); ++i)
+    if (a.body[i].R_WB != b.body[i].R_WB || a.body[i].p_WC != b.body[i].p_WC) return false;
+  for (std::size_t d = 0; d < a.drive.size(); ++d)
+    if (a.drive[d].position != b.drive[d].position) return false;
+  return true;
+}
+
+// True if a contact bears at `after` that did not at `before`: its friction then holds from where it was touched on the
+// way, and that way has to be gone again.
+bool lands(const Model& model, const SystemState& before, const SystemState& after) {
+  SystemWorkspace work = model.system().make_workspace();
+  const auto bears = [&](int element, SystemState state) {
+    work.forces.clear();
+    const Memory m = model.system().memory(element, state, work);
+    model.system().elements[static_cast<std::size_t>(element)]->add_forces(state.instant(), 0.0, m, work.forces);
+    return !work.forces.value().isZero(0.0);
+  };
+  for (std::size_t k = 0; k < model.system().elements.size(); ++k) {
+    const int e = static_cast<int>(k);
+    if (dynamic_cast<const Contact*>(model.system().elements[k].get()) && !bears(e, before) && bears(e, after))
+      return true;
+  }
+  return false;
+}
+
+// Goes through the phases of one lift beside those of another that differs little from it.
+class Neighbour {
+ public:
+  Neighbour(const Model& model, const Model& other, const Operation& like)
+      : model_(model),
+        other_(other),
+        like_(like),
+        together_(same_positions(model.initial_state(), other.initial_state()) &&
+                  same_statics(model.system(), other.system(), model.initial_state())) {}
+
+  /// The end of phase `p` that begins in `before`.
+  SystemState end_of_phase(std::size_t p, const SystemState& before) {
+    const PhaseSpec &spec = model_.specification().operation.phases[p],
+                    &theirs = other_.specification().operation.phases[p];
+    if (spec.moves.empty()) return before;
+    const SystemState& there = like_.equilibria[p + 1];
+    SystemState state = before;
+    const std::vector<StaticGoal> goals = move_drives(model_, spec, state);
+    together_ = together_ && same_ends(spec, theirs, before, there);
+    if (together_) {
+      state = there;
+      SystemWorkspace work = model_.system().make_workspace();
+      model_.system().settle_elements(state, work);
+      return state;
+    }
+    if (lands(other_, like_.equilibria[p], there)) return stillhook::end_of_phase(model_, spec, before);
+    for (const StaticGoal& goal : goals) state.drive[goal.drive] = there.drive[goal.drive];
+    state.body = there.body;
+    state.lambda = there.lambda;
+    try {
+      solve_static(model_, state, goals, entry_of(spec), true);
+      return state;
+    } catch (const SpecificationError&) {
+      return stillhook::end_of_phase(model_, spec, before);  // not so near after all
+    }
+  }
+
+ private:
+  // True if the other's end of the phase is this lift's too.
+  bool same_ends(const PhaseSpec& spec, const PhaseSpec& theirs, const SystemState& before,
+                 const SystemState& there) const {
+    if (spec.moves.size() != theirs.moves.size()) return false;
+    for (std::size_t i = 0; i < spec.moves.size(); ++i) {
+      if (!same_end(spec.moves[i], theirs.moves[i])) return false;
+      if (spec.moves[i].goal &&
+          coordinate_value(model_, there, *spec.moves[i].goal) != coordinate_value(other_, there, *spec.moves[i].goal))
+        return false;
+    }
+    return before.element_state.size() == there.element_state.size() &&
+           same_statics(model_.system(), other_.system(), there);
+  }
+
+  const Model& model_;
+  const Model& other_;
+  const Operation& like_;
+  bool together_;  // so far
+};
 
 }  // namespace
 
@@ -113,31 +223,45 @@ Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<d
   return phase;
 }
 
-bool same_target(const CoordinateSpec& a, const CoordinateSpec& b) {
-  return a.body == b.body && a.point == b.point && a.axis == b.axis && a.relative_to == b.relative_to &&
-         a.joint == b.joint && a.wire == b.wire;
-}
+}  // namespace
 
-bool same_end(const MoveSpec& a, const MoveSpec& b) {
-  return a.drive == b.drive && a.travel == b.travel && a.goal.has_value() == b.goal.has_value() &&
-         (!a.goal || (same_target(*a.goal, *b.goal) && a.goal_value == b.goal_value));
+namespace {
+
+// Phase after phase; `end_of_phase` gives the equilibrium at the end of a phase from that before it.
+template <class F>
+Operation with_phases(const Model& model, std::size_t phases, double until, F end_of_phase) {
+  Operation operation;
+  const auto add_pose = [&](const SystemState& state, const std::string& name) {
+    operation.static_poses.push_back(static_pose(model, state, name));
+    operation.equilibria.push_back(state);
+  };
+  add_pose(model.initial_state(), "start");
+  for (std::size_t p = 0; p < phases; ++p) {
+    if (until > 0.0 && operation.planned_duration() >= until) break;
+    const PhaseSpec& spec = model.specification().operation.phases[p];
+    SystemState before = operation.equilibria.back();
+    before.phase = static_cast<int>(p);
+    const SystemState after = end_of_phase(p, before);
+    add_pose(after, spec.name);
+    operation.phases.push_back(timed_phase(model, spec, travels_between(model, spec, before, after),
+                                           operation.static_poses[p], operation.static_poses[p + 1]));
+  }
+  return operation;
 }
 
 }  // namespace
 
-Operation build_operation(const Model& model) {
-  Operation operation;
-  SystemState state = model.initial_state();
-  operation.static_poses.push_back(static_pose(model, state, "start"));
-  for (const PhaseSpec& spec : model.specification().operation.phases) {
-    state.phase = static_cast<int>(operation.phases.size());
-    const std::vector<double> travels =
-        spec.moves.empty() ? std::vector<double>{} : work_out_travels(model, spec, state);
-    operation.static_poses.push_back(static_pose(model, state, spec.name));
-    const auto after = operation.static_poses.end() - 1, before = after - 1;
-    operation.phases.push_back(timed_phase(model, spec, travels, *before, *after));
-  }
-  return operation;
+Operation build_operation(const Model& model, double until) {
+  const std::vector<PhaseSpec>& phases = model.specification().operation.phases;
+  return with_phases(model, phases.size(), until,
+                     [&](std::size_t p, const SystemState& before) { return end_of_phase(model, phases[p], before); });
+}
+
+Operation build_operation_like(const Model& model, const Model& other, const Operation& like) {
+  const std::size_t phases = std::min(like.phases.size(), model.specification().operation.phases.size());
+  Neighbour neighbour(model, other, like);
+  return with_phases(model, phases, 0.0,
+                     [&](std::size_t p, const SystemState& before) { return neighbour.end_of_phase(p, before); });
 }
 
 bool same_poses(const OperationSpec& a, const OperationSpec& b) {
@@ -152,7 +276,8 @@ bool same_poses(const OperationSpec& a, const OperationSpec& b) {
 Operation retimed_operation(const Model& model, const OperationSpec& spec, const Operation& like) {
   Operation operation;
   operation.static_poses = like.static_poses;
-  for (std::size_t i = 0; i < spec.phases.size(); ++i) {
+  operation.equilibria = like.equilibria;
+  for (std::size_t i = 0; i < like.phases.size(); ++i) {
     std::vector<double> travels;
     for (const Move& move : like.phases[i].moves) travels.push_back(move.profile.travel());
     operation.phases.push_back(

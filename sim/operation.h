@@ -29,14 +29,20 @@ struct Phase {
 struct Operation {
   std::vector<Phase> phases;
   std::vector<StaticPose> static_poses;  // [0] start, [i + 1] end of phase i with every move finished, calm water
+  std::vector<SystemState> equilibria;   // the states of static_poses
 
   /// Duration without waiting for events, s.
   double planned_duration() const;
 };
 
-/// Solves the static poses phase by phase, so that a move with a goal gets the travel that reaches it. Throws
-/// SpecificationError when a goal cannot be reached or a drive's limits are broken.
-Operation build_operation(const Model& model);
+/// Solves the static poses phase by phase, so that a move with a goal gets the travel that reaches it. `until` (s; 0 =
+/// all): phases that cannot begin before are left out. Throws SpecificationError when a goal cannot be reached or a
+/// drive's limits are broken.
+Operation build_operation(const Model& model, double until = 0.0);
+
+/// The same for a model that differs little from `other`, with as many phases as `like`, the operation of `other`. An
+/// equilibrium of `other` that is one of this model as well is taken over; else it is where the search for it begins.
+Operation build_operation_like(const Model& model, const Model& other, const Operation& like);
 
 /// True if both ask for the same phases and moves with the same travels and goals: they differ at most in timing
 /// (speeds, profiles, delays, durations, waits), so that every pose is the same.

@@ -21,16 +21,16 @@ std::string describe(const CoordinateSpec& c) {
   return std::string(1, "xyz"[c.axis]) + " of a point of '" + c.body + "'";
 }
 
-EquilibriumReport try_to_settle(const Model& model, SystemState& state) {
+EquilibriumReport try_to_settle(const Model& model, SystemState& state, bool close) {
   const double t = state.t;
   state.t = kCalm;
-  const EquilibriumReport report = solve_equilibrium(model.system(), state);
+  const EquilibriumReport report = solve_equilibrium(model.system(), state, close);
   state.t = t;
   return report;
 }
 
-void settle(const Model& model, SystemState& state, const std::string& entry) {
-  const EquilibriumReport report = try_to_settle(model, state);
+void settle(const Model& model, SystemState& state, const std::string& entry, bool close) {
+  const EquilibriumReport report = try_to_settle(model, state, close);
   if (!report.converged)
     throw SpecificationError(entry, "",
                              "no static equilibrium found: after " + std::to_string(report.iterations) +
@@ -67,8 +67,8 @@ double coordinate_value(const Model& model, const SystemState& state, const Coor
 }
 
 void solve_static(const Model& model, SystemState& state, const std::vector<StaticGoal>& goals,
-                  const std::string& entry) {
-  settle(model, state, entry);
+                  const std::string& entry, bool close) {
+  settle(model, state, entry, close);
   if (goals.empty()) return;
   const int n = static_cast<int>(goals.size());
   const auto miss = [&](const SystemState& s) {
@@ -86,7 +86,7 @@ void solve_static(const Model& model, SystemState& state, const std::vector<Stat
       for (const double by : kProbes) {
         SystemState probe = state;
         probe.drive[goals[j].drive].position += by;
-        if (!try_to_settle(model, probe).converged) continue;
+        if (!try_to_settle(model, probe, close).converged) continue;
         slope.col(j) = (miss(probe) - f) / by;
         if (std::abs(slope(j, j)) > no_grip(goals[j])) break;
       }
@@ -101,8 +101,8 @@ void solve_static(const Model& model, SystemState& state, const std::vector<Stat
     for (int halving = 0;; ++halving, step *= 0.5) {
       state = here;
       for (int j = 0; j < n; ++j) state.drive[goals[j].drive].position += step[j];
-      if (halving < kHalvings && !try_to_settle(model, state).converged) continue;
-      if (halving == kHalvings) settle(model, state, entry);
+      if (halving < kHalvings && !try_to_settle(model, state, close).converged) continue;
+      if (halving == kHalvings) settle(model, state, entry, close);
       break;
     }
     f = miss(state);

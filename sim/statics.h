@@ -20,9 +20,10 @@ struct StaticGoal {
 double coordinate_value(const Model& model, const SystemState& state, const CoordinateSpec& coordinate);
 
 /// Moves `state` to the equilibrium at its drive positions in calm water; with goals, moves their drives too.
-/// Throws SpecificationError naming `entry` when there is no equilibrium or a goal is out of reach.
+/// `close`: bodies, drives and lambda are already nearly there. Throws SpecificationError naming `entry` when there is no
+/// equilibrium or a goal is out of reach.
 void solve_static(const Model& model, SystemState& state, const std::vector<StaticGoal>& goals,
-                  const std::string& entry);
+                  const std::string& entry, bool close = false);
 
 /// The pose as it is reported.
 StaticPose static_pose(const Model& model, const SystemState& state, const std::string& name);

@@ -27,6 +27,9 @@ struct TangentOptions {
   std::vector<std::string> channels;  // names of trajectory.h
   /// Further directions after the twins: every coordinate of the initial state, in the order of state_directions().
   bool by_initial_state = false;
+  /// How the given initial state changes, rows as state_directions(): a column for each twin, then further directions.
+  /// Empty: it does not change. For a run that starts elsewhere, without by_initial_state.
+  MatrixX start_change;
   /// A body that moves by more than this (m or rad) for the range of a parameter: chaos of snap loads, not a gradient.
   double growth_limit = 1e4;
 };

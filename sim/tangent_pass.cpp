@@ -49,32 +49,47 @@ void TangentPass::choose_parts(const std::vector<std::string>& channels) {
   samples_.resize(channels.size());
 }
 
+// The given state moved by +- width/2 along `change`.
+std::array<SystemState, 2> TangentPass::moved_both_ways(const SystemState& base, const VectorX& change,
+                                                        double width) const {
+  const int n = model_.system().coordinates();
+  const BodyChange bodies{change.head(n), change.segment(n, n)};
+  std::array<SystemState, 2> sides = {base, base};
+  for (int side = 0; side < 2; ++side) {
+    const double by = (side == 0 ? -0.5 : 0.5) * width;
+    displace_bodies(bodies, 0, by, sides[side].body);
+    for (std::size_t k = 0; k < base.element_state.size(); ++k)
+      sides[side].element_state[k] += by * change[2 * n + static_cast<Eigen::Index>(k)];
+  }
+  return sides;
+}
+
 std::vector<std::array<SystemState, 2>> TangentPass::starts(const SystemState& base, std::vector<SystemTwin>& systems) {
   std::vector<std::array<SystemState, 2>> all;
-  const bool given = started_elsewhere_;
-  for (const LiftTwin& twin : twins_) {
+  const MatrixX& change = wanted_.start_change;
+  for (std::size_t j = 0; j < twins_.size(); ++j) {
+    const LiftTwin& twin = twins_[j];
     systems.push_back({{&twin.model[0]->system(), &twin.model[1]->system()}, twin.width});
-    all.push_back({given ? base : twin.model[0]->initial_state(), given ? base : twin.model[1]->initial_state()});
+    if (!started_elsewhere_)
+      all.push_back({twin.model[0]->initial_state(), twin.model[1]->initial_state()});
+    else if (change.size() > 0)
+      all.push_back(moved_both_ways(base, change.col(static_cast<Eigen::Index>(j)), twin.width));
+    else
+      all.push_back({base, base});
   }
-  if (!wanted_.by_initial_state) return all;
-  const int n = model_.system().coordinates();
-  for (int i = 0; i < state_directions(model_.system()); ++i) {
-    const bool of_element = i >= 2 * n;
-    const double width =
-        of_element ? kNudge * std::max(1.0, std::abs(base.element_state[static_cast<std::size_t>(i - 2 * n)])) : kNudge;
+  const auto add = [&](const VectorX& direction, double width) {
     systems.push_back({{nullptr, nullptr}, width});
-    std::array<SystemState, 2> sides = {base, base};
-    for (int side = 0; side < 2; ++side) {
-      const double by = (side == 0 ? -0.5 : 0.5) * width;
-      if (of_element) {
-        sides[side].element_state[static_cast<std::size_t>(i - 2 * n)] += by;
-        continue;
-      }
-      BodyChange unit{MatrixX::Zero(n, 1), MatrixX::Zero(n, 1)};
-      (i < n ? unit.xi : unit.u)(i % n, 0) = 1.0;
-      displace_bodies(unit, 0, by, sides[side].body);
-    }
-    all.push_back(std::move(sides));
+    all.push_back(moved_both_ways(base, direction, width));
+  };
+  for (auto j = static_cast<Eigen::Index>(twins_.size()); j < change.cols(); ++j)
+    add(change.col(j), kNudge / std::max(1e-12, change.col(j).cwiseAbs().maxCoeff()));
+  if (!wanted_.by_initial_state) return all;
+  const int n = model_.system().coordinates(), all_directions = state_directions(model_.system());
+  for (int i = 0; i < all_directions; ++i) {
+    const bool of_element = i >= 2 * n;
+    const double size =
+        of_element ? std::max(1.0, std::abs(base.element_state[static_cast<std::size_t>(i - 2 * n)])) : 1.0;
+    add(VectorX::Unit(all_directions, i), kNudge * size);
   }
   return all;
 }

@@ -40,6 +40,7 @@ class TangentPass {
   bool has_twin(int j) const { return j < static_cast<int>(twins_.size()); }
   void choose_parts(const std::vector<std::string>& channels);
   std::vector<std::array<SystemState, 2>> starts(const SystemState& base, std::vector<SystemTwin>& systems);
+  std::array<SystemState, 2> moved_both_ways(const SystemState& base, const VectorX& change, double width) const;
   void drives_at(double t);
   bool depends_directly(int j, const Part& part) const;
   /// Fills `out` (rows as the parts say, x directions).

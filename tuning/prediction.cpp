@@ -192,7 +192,8 @@ Prediction predict(const RecordModel& model, const VectorX& values, const Vector
   if (derivatives) request.ranges = model.ranges;
   const RecordStart start = record_start(model, c, own);
   request.from = start.from;
-  request.by_initial_state = derivatives && start.from;
+  if (derivatives && start.from)
+    request.start_change = [&](const TangentRun& twins) { return start_tangent(model, c, start, twins); };
   const TangentRun run = tangent_run(c, request, options);
   Prediction p;
   p.message = run.trajectory.message;
@@ -206,7 +207,6 @@ Prediction predict(const RecordModel& model, const VectorX& values, const Vector
     return p;
   }
   p.ok = true;
-  const MatrixX by = derivatives && start.from ? start_tangent(model, c, start, run) : MatrixX();
   for (std::size_t k = 0; k < model.data.channels.size(); ++k) {
     const auto channel = static_cast<std::size_t>(run.trajectory.find(request.channels[k]));
     const std::vector<double>& series = run.trajectory.values[channel];
@@ -217,8 +217,7 @@ Prediction predict(const RecordModel& model, const VectorX& values, const Vector
     if (!derivatives) continue;
     const MatrixX simulated = at(run.tangents.values[k]);
     MatrixX& tangent = p.tangent.emplace_back(MatrixX::Zero(simulated.rows(), keys + model.own()));
-    tangent.leftCols(keys) = simulated.leftCols(keys);
-    if (by.size() > 0) tangent.leftCols(by.cols()) += simulated.rightCols(simulated.cols() - keys) * by;
+    tangent.leftCols(simulated.cols()) = simulated;
     if (offset != model.offsets.end()) tangent.col(keys + place).setOnes();
   }
   return p;

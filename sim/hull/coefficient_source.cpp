@@ -167,15 +167,37 @@ std::vector<std::string> listed(const std::string& text) {
   return names;
 }
 
-void check(const HydrodynamicCoefficients& set, const PanelMethodSpec& method, std::vector<std::string>& warnings) {
-  require_self_checks(set, listed(method.accepted_checks));
+std::vector<std::string> accepted_failures(const HydrodynamicCoefficients& set, const std::string& accepted) {
+  require_self_checks(set, listed(accepted));
+  std::vector<std::string> failures;
   for (const SelfCheck& result : self_checks(set))
     if (!result.passed()) {
       std::ostringstream sentence;
       sentence << set.source << ": the self-check \"" << result.key << "\" fails (" << result.value << ", at most "
                << result.limit << "; " << result.detail << ") and is accepted by name";
-      warnings.push_back(sentence.str());
+      failures.push_back(sentence.str());
     }
+  return failures;
+}
+
+/// Once for each set: every model of a search has the same.
+void check(const Set& set, const PanelMethodSpec& method, std::vector<std::string>& warnings) {
+  struct Entry {
+    std::weak_ptr<const HydrodynamicCoefficients> set;
+    std::string accepted;
+    std::vector<std::string> failures;
+  };
+  static std::mutex mutex;
+  static std::vector<Entry> known;
+  const std::lock_guard lock(mutex);
+  std::erase_if(known, [](const Entry& entry) { return entry.set.expired(); });
+  auto entry = std::find_if(known.begin(), known.end(), [&](const Entry& e) {
+    return e.set.lock() == set && e.accepted == method.accepted_checks;
+  });
+  if (entry == known.end())
+    entry = known.insert(known.end(),
+                         {set, method.accepted_checks, accepted_failures(*set, method.accepted_checks)});
+  warnings.insert(warnings.end(), entry->failures.begin(), entry->failures.end());
 }
 
 }  // namespace
@@ -271,7 +293,7 @@ Set coefficient_set(std::span<const HullAfloat> hulls, const SeaSpec& sea, const
     Set set = kind == Kind::panels
                   ? cached_panel_method(panel_hulls(hulls), panel_options(sea, method, panel), progress, nullptr)
                   : read_file(body, hulls.front(), sea);
-    check(*set, method, warnings);
+    check(set, method, warnings);
     if (set->description.find("resonance of the gap") != std::string::npos)
       warnings.push_back(body.name + ": " + set->description);
     if (set->hulls() != static_cast<int>(hulls.size()))

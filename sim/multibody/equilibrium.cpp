@@ -7,7 +7,7 @@ namespace stillhook {
 namespace {
 
 constexpr int kMaxIterations = 600;
-constexpr double kTolerance = 1e-9;      // out-of-balance force over the largest weight
+constexpr double kTolerance = 1e-9;  // out-of-balance force over the largest weight
 // Then it is polished while each iteration takes away this factor, down to rounding: derivatives of an equilibrium are
 // differences of two of them.
 constexpr double kPolish = 0.2;
@@ -34,9 +34,45 @@ double limit(VectorX& xi) {
   return factor;
 }
 
+// What the element exerts at rest.
+const VectorX& static_force(const MultibodySystem& system, int element, SystemState& state, SystemWorkspace& work) {
+  work.forces.clear();
+  system.elements[static_cast<std::size_t>(element)]->add_forces(state.instant(), 0.0,
+                                                                 system.memory(element, state, work), work.forces);
+  return work.forces.value();
+}
+
 }  // namespace
 
-EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state) {
+bool same_statics(const MultibodySystem& a, const MultibodySystem& b, const SystemState& at) {
+  if (a.gravity != b.gravity || a.bodies.size() != b.bodies.size() || a.joints.size() != b.joints.size() ||
+      a.elements.size() > b.elements.size())
+    return false;
+  for (std::size_t i = 0; i < a.bodies.size(); ++i)
+    if (a.bodies[i].mass != b.bodies[i].mass || a.bodies[i].cog != b.bodies[i].cog) return false;
+  const Instant now = at.instant();
+  for (std::size_t j = 0; j < a.joints.size(); ++j) {
+    Joint::Rows rows_a, rows_b;
+    a.joints[j].values(now, rows_a);
+    b.joints[j].values(now, rows_b);
+    const int rows = a.joints[j].rows();
+    if (rows != b.joints[j].rows() || rows_a.head(rows) != rows_b.head(rows) ||
+        a.joints[j].coordinate(now) != b.joints[j].coordinate(now))
+      return false;
+  }
+  SystemState state = at;
+  SystemWorkspace work_a = a.make_workspace(), work_b = b.make_workspace();
+  for (std::size_t k = 0; k < a.elements.size(); ++k) {
+    const ForceElement &p = *a.elements[k], &q = *b.elements[k];
+    if (&p == &q || p.same_as(q)) continue;
+    const int e = static_cast<int>(k);
+    if (p.state_size() != q.state_size() || static_force(a, e, state, work_a) != static_force(b, e, state, work_b))
+      return false;
+  }
+  return true;
+}
+
+EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state, bool close_to_it) {
   const int n = system.coordinates(), m = system.constraints();
   SystemWorkspace work = system.make_workspace();
   for (BodyKinematics& b : state.body) b.v_WC = b.w_B = Vector3::Zero();
@@ -57,7 +93,7 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
   EquilibriumReport report;
   MatrixX A(n + m, n + m), C_q;
   VectorX Q(n), C, b(n + m);
-  double shift = 1.0, last = -1.0, polished = 0.0;
+  double shift = close_to_it ? kSmallestShift : 1.0, last = -1.0, polished = 0.0;
   if (static_cast<int>(state.element_state.size()) != system.element_state_size()) system.start_elements(state, work);
   for (report.iterations = 0; report.iterations < kMaxIterations; ++report.iterations) {
     system.forces(state, 0.0, work, Q);

@@ -23,8 +23,12 @@ struct EquilibriumReport {
 
 /// Moves the bodies of `state` to equilibrium; velocities and accelerations become zero, lambda the reactions, the
 /// elements' states steady (they are started first if the state has none). The elements see the time state.t (use t < 0
-/// for calm water).
-EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state);
+/// for calm water). `close`: the state, lambda included, is already nearly there; s is small from the start.
+EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state, bool close = false);
+
+/// True if at rest in this state both systems have the same weights, joints and forces, to the last bit, so that an
+/// equilibrium of one is an equilibrium of the other. `state` is one of `b`, whose elements may go on after those of `a`.
+bool same_statics(const MultibodySystem& a, const MultibodySystem& b, const SystemState& state);
 
 /// Moves the bodies as little as possible so that C(q) = 0. Returns the largest remaining row, and its joint.
 double assemble_joints(const MultibodySystem& system, SystemState& state, std::string& joint);

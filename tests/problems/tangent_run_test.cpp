@@ -58,6 +58,11 @@ Differences richardson(const Case& c, const std::string& key, double h,
   return result;
 }
 
+double fall_stiffness(const Case& c) {
+  const WireSpec& fall = c.specification.wires.front();
+  return fall.axial_stiffness / fall.unstretched_length;  // N/m
+}
+
 void check_key(const Case& c, const std::string& key, double relative_step) {
   const std::vector<std::string> channels = {"load.x",       "load.y",      "load.z",
                                              "fall.tension", "barge.pitch", "tagline.tension"};
@@ -66,6 +71,11 @@ void check_key(const Case& c, const std::string& key, double relative_step) {
   request.channels = channels;
   const TangentRun run = run_with_tangents(c, request);
   REQUIRE(run.tangents.valid);
+  // Where the key moves the lift at rest, either twin starts within rounding of its equilibrium, 1e-13 m on coordinates
+  // of some ten metres; the wire's stiffness and the width of the twins make a tension of it that stays in the run.
+  const auto& rest = run.static_poses[0];
+  const bool moves = rest[0].front().bodies[0].p != rest[1].front().bodies[0].p;
+  const double rounding = moves ? 1e-13 * fall_stiffness(c) / run.widths[0] : 0.0;
   for (std::size_t k = 0; k < channels.size(); ++k) {
     const auto series = [&](const Trajectory& t) { return t.values[static_cast<std::size_t>(t.find(channels[k]))]; };
     const Differences truth = richardson(c, key, relative_step * std::max(0.1, std::abs(key_value(c, key))), series);
@@ -79,7 +89,7 @@ void check_key(const Case& c, const std::string& key, double relative_step) {
     // the differences themselves are in doubt of: rounding of a run over the step, and kinks of the pull-only law that
     // fall between the two sides.
     CHECK(truth.doubt <= 3e-3 * size + 1e-12);
-    CHECK(error <= 1e-5 * size + 2.0 * truth.doubt + 1e-12);
+    CHECK(error <= 1e-5 * size + 2.0 * truth.doubt + 1e-12 + (channels[k] == "fall.tension" ? rounding : 0.0));
     // The position of the load as a whole, where the differences are at their best.
     if (channels[k] == "load.z") CHECK(error <= 1e-6 * size + 2.0 * truth.doubt);
   }
