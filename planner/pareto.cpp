@@ -23,14 +23,15 @@ double largest(const Evaluator& evaluator, const Evaluation& e, const std::strin
 
 class FrontSearch {
  public:
-  FrontSearch(const Evaluator& evaluator, EvaluationStore& store, const PlanOptions& options)
+  FrontSearch(const Evaluator& evaluator, const SearchProblem& problem, EvaluationStore& store,
+              const PlanOptions& options)
       : evaluator_(evaluator), options_(options), spec_(evaluator.base().plan.pareto) {
     const PlanSpec& plan = evaluator.base().plan;
     with_gradient_ = plan.gradient_algorithm != "none";
     solver_ = with_gradient_                   ? plan.gradient_algorithm
               : plan.local_algorithm == "none" ? "cobyla"
                                                : plan.local_algorithm;
-    problem_ = with_store(with_gradient_ ? evaluator.smooth_problem({}) : evaluator.problem(), store, "front");
+    problem_ = with_store(problem, store, "front");
     // The two metrics' own limits are the last constraints.
     const auto& constraints = evaluator.constraints();
     second_ = static_cast<Eigen::Index>(constraints.size()) - 1;
@@ -171,6 +172,10 @@ class FrontSearch {
   TracedFront front_;
 };
 
+SearchProblem problem_of(const Evaluator& front) {
+  return front.base().plan.gradient_algorithm != "none" ? front.smooth_problem({}) : front.problem();
+}
+
 std::string unit_of(const std::string& metric) {
   const MetricDefinition* definition = metric_definition(metric);
   return definition ? definition->unit : "";
@@ -202,7 +207,19 @@ Evaluator front_evaluator(const Evaluator& evaluator, const Evaluation& baseline
 
 TracedFront trace_front(const Evaluator& front, const PlanResult& plan, EvaluationStore& store,
                         const PlanOptions& options) {
-  return FrontSearch(front, store, options).trace(plan);
+  return FrontSearch(front, problem_of(front), store, options).trace(plan);
+}
+
+TracedFront replay_front(const Evaluator& front, const PlanResult& plan, EvaluationStore& store) {
+  SearchProblem problem = problem_of(front);
+  const auto unknown = [](const Eigen::VectorXd&) {
+    Evaluation e;
+    e.interrupted = true;
+    return e;
+  };
+  problem.evaluate = unknown;
+  if (problem.evaluate_with_gradient) problem.evaluate_with_gradient = unknown;
+  return FrontSearch(front, problem, store, {}).trace(plan);
 }
 
 ParetoFront front_drawing(const TracedFront& front) {

@@ -38,6 +38,9 @@ Evaluator front_evaluator(const Evaluator& evaluator, const Evaluation& baseline
 TracedFront trace_front(const Evaluator& front, const PlanResult& plan, EvaluationStore& store,
                         const PlanOptions& options);
 
+/// The result of an earlier trace_front() from what its store holds alone; what is not there ends it.
+TracedFront replay_front(const Evaluator& front, const PlanResult& plan, EvaluationStore& store);
+
 ParetoFront front_drawing(const TracedFront& front);
 ParetoSummary front_summary(const TracedFront& front);
 

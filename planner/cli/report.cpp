@@ -5,6 +5,7 @@
 
 #include "planner/cli/commands.h"
 #include "planner/cli/run_files.h"
+#include "planner/pareto.h"
 #include "planner/plan_results.h"
 #include "results/archive.h"
 
@@ -29,7 +30,15 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
   const Case planned = evaluator.case_at(result.search.best_x);
   const RunResult run =
       judged(specification_at(evaluator, result.search.best_x, governing), open_archive(folder.history()), c.limits);
-  const SearchSection search = search_section(evaluator, result, SearchSection::kNone);
+  SearchSection search = search_section(evaluator, result, SearchSection::kNone);
+  if (std::filesystem::exists(folder.front_store())) {
+    const Evaluator of_front = front_evaluator(evaluator, result.baseline, nullptr);
+    EvaluationStore front_store(folder.front_store(), front_identity(c), of_front.problem());
+    search.pareto = front_drawing(replay_front(of_front, result, front_store));
+  }
+  if (c.plan.certify > 0 || c.plan.gradient_algorithm != "none")
+    spdlog::warn(
+        "the rebuilt report has no certificate and no sensitivities: these take simulations (`plan --resume`)");
   write_run_report(folder, run, prepare_run(planned, run.specification), planned, statement, &search,
                    {history_note(evaluator, governing)});
 }

@@ -175,7 +175,12 @@ TEST_CASE("plan without a feasible point is 3, with the least violation in its f
 
 TEST_CASE("plan: kill -9, resume, same plan, nothing lost and nothing repeated") {
   const Folder folder;
-  const std::vector<std::string> options = {"--evaluations", "24", "--seed", "3", "--json", "--quiet"};
+  std::vector<std::string> options = {"--evaluations", "24", "--seed", "3", "--json", "--quiet"};
+  const bool with_gradients = GENERATE(false, true);
+  if (with_gradients)
+    for (const char* key : {"plan.gradient_algorithm=slsqp", "plan.gradient_evaluations=6",
+                            "plan.pareto.first=duration", "plan.pareto.second=sway_peak", "plan.pareto.evaluations=4"})
+      options.insert(options.end(), {"--set", key});
   const auto plan = [&](const std::string& out, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"plan", kCase, "--out", out};
     arguments.insert(arguments.end(), options.begin(), options.end());
@@ -199,6 +204,7 @@ TEST_CASE("plan: kill -9, resume, same plan, nothing lost and nothing repeated")
   const json b = json::parse(resumed.out);
   for (const char* key : {"metrics", "limits", "objective", "search", "variables", "status"})
     CHECK(undisturbed[key] == b[key]);
+  if (with_gradients) CHECK(undisturbed["pareto"] == b["pareto"]);
   CHECK(content(folder / "whole/plan.toml") == content(folder / "killed/plan.toml"));
   CHECK(stored(folder / "killed") == evaluations);
 

@@ -84,6 +84,10 @@ TEST_CASE("plan traces the front between duration and sway", "[cli][pareto]") {
   const Result again = run(folder, front_of("front", gradient, "--resume"));
   REQUIRE(again.code == 0);
   CHECK(nlohmann::json::parse(content(folder / "front/summary.json"))["pareto"] == front);
+  // And the drawing in a rebuilt report.
+  std::filesystem::remove(folder / "front/report.html");
+  REQUIRE(run(folder, {"report", "front"}).code == 0);
+  CHECK_THAT(content(folder / "front/report.html"), Contains("Choice between"));
 }
 
 TEST_CASE("a front of what is no pair of metrics is refused", "[cli][pareto][bad_input]") {

@@ -42,9 +42,9 @@ TEST_CASE("plan follows gradients and certifies in conditions it has not seen", 
   INFO(r.err);
   REQUIRE(r.code == 0);
   CHECK_THAT(r.out, Contains("slsqp+cobyla") && Contains("In 6 fresh conditions"));
-  CHECK_THAT(content(folder / "plan/report.html"),
-             Contains("What moves what at the plan") && Contains("What the limits cost") &&
-                 Contains("conditions the search has not seen"));
+  CHECK_THAT(content(folder / "plan/report.html"), Contains("What moves what at the plan") &&
+                                                       Contains("What the limits cost") &&
+                                                       Contains("conditions the search has not seen"));
   const auto summary = nlohmann::json::parse(content(folder / "plan/summary.json"));
   const auto& certificate = summary["certificate"];
   CHECK(certificate["conditions"] == 6);
