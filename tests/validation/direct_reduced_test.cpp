@@ -27,7 +27,7 @@ Trajectory run(HydrodynamicsSpec::RadiationModel radiation, double duration) {
   s.solver.max_duration = duration;
   for (BodySpec& body : s.bodies)
     if (body.hydrodynamics.kind == HydrodynamicsSpec::Kind::panels) body.hydrodynamics.radiation = radiation;
-  s.panel_method.fit_tolerance = 0.015;
+  s.panel_method.fit_tolerance = 0.012;  // a state space within 1.5 % would take most of the 1 % for itself
   s.panel_method.direct_lowest = 0.4;
   s.panel_method.direct_highest = 1.3;
   const Model model = build_model(s);
@@ -68,11 +68,9 @@ TEST_CASE("panel method marched along against its state space: the reference lif
     const Rms rms = compare(reduced, direct, channel, kFrom);
     INFO(channel << ": rms " << rms.motion << ", difference " << rms.difference << " = "
                  << 100.0 * rms.difference / rms.motion << " %");
-    // 1 %. The state space has the damping of the radiated energy, the march that of the pressure, which in the crane's
-    // roll is 3 % less: 1.1 % was found. The barge's pitch is about its 24 m breadth, at its natural period of 5.6 s,
-    // where the waves are four panels of its draft long: 1.6 % was found, and less with finer panels.
-    const std::string name = channel;
-    CHECK(rms.difference < (name == "barge.pitch" ? 0.02 : name == "crane.roll" ? 0.015 : 0.01) * rms.motion);
+    // 1 %. The barge's pitch, whose period of 5.6 s is the shortest
+    // wave that matters, is the worst: 0.8 % was found.
+    CHECK(rms.difference < 0.01 * rms.motion);
   }
 }
 

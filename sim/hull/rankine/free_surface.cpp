@@ -120,7 +120,7 @@ class Builder {
   void divide(const Point& low, double size) {
     const Point middle = low.array() + 0.5 * size;
     const double s = std::max(0.0, waterplane_.distance(middle) - 0.71 * size);
-    if (size > grid_.near * 1.0001 && size > std::min(grid_.far, grid_.near + grid_.growth * s)) {
+    if (size > grid_.near * 1.0001 && size > grid_.largest(s)) {
       for (int k = 0; k < 4; ++k) divide(low + 0.5 * size * Point(k % 2, k / 2), 0.5 * size);
       return;
     }
@@ -186,6 +186,11 @@ class Builder {
 };
 
 }  // namespace
+
+double FreeSurfaceGrid::largest(double s) const {
+  const double grown = std::min(far, near + growth * s);
+  return reach > 0.0 ? std::min(grown, middle * std::pow(std::max(1.0, s / reach), 6)) : grown;
+}
 
 std::vector<Strip> waterplane_strips(const HullPanels& hulls) {
   const std::vector<Segment> segments = waterline(hulls);

@@ -18,20 +18,24 @@
 namespace stillhook::rankine {
 
 struct FreeSurfaceGrid {
-  double near = 0.0;   // m, largest cell at a hull
-  double far = 0.0;    // m, largest cell anywhere
-  double growth = 0.2; // 1, allowed growth of the cell size with the distance from a hull
-  double width = 0.0;  // m, L: the surface ends this far from the hulls
+  double near = 0.0;    // m, largest cell at a hull
+  double far = 0.0;     // m, largest cell anywhere
+  double growth = 0.2;  // 1, allowed growth of the cell size with the distance from a hull
+  double width = 0.0;   // m, L: the surface ends this far from the hulls
+  // m: cells are at most `middle` up to `reach` from the hulls, beyond it at most middle (s/reach)^6, as the shortest
+  // wave that the beach has left there grows; 0 = no such bound.
+  double middle = 0.0, reach = 0.0;
+  double largest(double s) const;  // m, of a cell at distance s
 };
 
 /// A panel made of one or several flat pieces, with one strength and one collocation point.
 struct SurfacePanels {
   std::vector<FlatPanel> pieces;
-  std::vector<int> first;       // pieces of panel j: first[j] .. first[j+1]-1
-  std::vector<Vector3> point;   // m, collocation point: the centroid
-  std::vector<double> area;     // m2
-  std::vector<double> distance; // m, s of the collocation point
-  std::vector<bool> in_gap;     // between two hulls (layout.h); empty = nowhere
+  std::vector<int> first;        // pieces of panel j: first[j] .. first[j+1]-1
+  std::vector<Vector3> point;    // m, collocation point: the centroid
+  std::vector<double> area;      // m2
+  std::vector<double> distance;  // m, s of the collocation point
+  std::vector<bool> in_gap;      // between two hulls (layout.h); empty = nowhere
   int size() const { return static_cast<int>(point.size()); }
 };
 

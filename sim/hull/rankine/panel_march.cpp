@@ -10,12 +10,16 @@ namespace stillhook::rankine {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-// Cells in the shortest wave at the hull; cells may grow outwards, where the beach has taken the short waves.
-constexpr double kCellsPerWave = 16.0, kGrowth = 0.06, kCellsPerLongestWave = 20.0;
+// Cells in the shortest wave: at the hull, and as far as that wave reaches; in the longest wave, beyond.
+constexpr double kCellsPerWave = 16.0, kCellsPerShortestWave = 8.0, kCellsPerLongestWave = 20.0, kGrowth = 0.12;
 // The beach: width in longest waves, and its strength over the geometric mean of the band's ends.
-constexpr double kBeachWidth = 1.0, kBeachStrength = 0.95;
-// Panels across a hull, cells at its waterline in its breadth.
-constexpr double kPanelsAcross = 8.0, kCellsAcross = 14.0;
+constexpr double kBeachWidth = 1.0, kBeachStrength = 1.5;
+// The shortest wave reaches to where the beach has left exp(-kFaded) of its amplitude.
+constexpr double kFaded = 2.0;
+// Panels across a hull, which cost nothing in the march, and cells at its waterline in its breadth.
+constexpr double kPanelsAcross = 16.0, kCellsAcross = 14.0;
+// Panels of the hull in one of the length that the case asks for: as those of A_inf and A(0) in panel_method.cpp.
+constexpr double kPanelsInLength = 2.0;
 // Share of the stability limit that is used.
 constexpr double kStable = 0.9;
 
@@ -42,16 +46,21 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
   const auto wave = [&](double w) { return kTwoPi * gravity_ / (w * w); };
   double breadth = layout.hulls[0].breadth;
   for (const Placement& p : layout.hulls) breadth = std::min({breadth, p.breadth, p.length});
-  const double panel = (options.panel_length > 0.0 ? options.panel_length : breadth / kPanelsAcross);
+  const double panel = (options.panel_length > 0.0 ? options.panel_length / kPanelsInLength : breadth / kPanelsAcross) /
+                       options.refinement;
+  const double strength = kBeachStrength * std::sqrt(options.lowest * options.highest);
   FreeSurfaceGrid grid;
-  grid.near = std::min(panel * kPanelsAcross / kCellsAcross, wave(options.highest) / kCellsPerWave) / options.refinement;
+  grid.near =
+      std::min(panel * kPanelsAcross / kCellsAcross, wave(options.highest) / kCellsPerWave / options.refinement);
   if (layout.gap > 0.0) grid.near = std::min(grid.near, layout.gap / 4.0 / options.refinement);
   grid.far = wave(options.lowest) / kCellsPerLongestWave / options.refinement;
   grid.growth = kGrowth;
   grid.width = kBeachWidth * wave(options.lowest);
-  const HullPanels panels = panels_of(hulls, layout, panel / options.refinement);
+  // Amplitude exp(-int nu/c ds), nu = strength (s/L)^2, group velocity c = g/2w.
+  grid.middle = wave(options.highest) / kCellsPerShortestWave / options.refinement;
+  grid.reach = std::cbrt(1.5 * kFaded * gravity_ * grid.width * grid.width / (strength * options.highest));
+  const HullPanels panels = panels_of(hulls, layout, panel);
   const SurfacePanels surface = free_surface(panels, grid);
-  const double strength = kBeachStrength * std::sqrt(options.lowest * options.highest);
   damping_.resize(surface.size());
   for (int i = 0; i < surface.size(); ++i) {
     const double s = surface.distance[i] / grid.width;
@@ -65,7 +74,6 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
   for (BoundaryClass& c : boundary_problem(panels, surface)) {
     const ClassModes modes = modes_of(panels, layout, c.parity);
     if (modes.modes.empty()) continue;
-    MarchClass m;
     const MatrixX P = c.N.partialPivLu().inverse();
     fastest = std::max(fastest, highest_square(P, damping_, gravity_));
     const MatrixX weighted = modes.normal.transpose() * weight.asDiagonal();
@@ -75,17 +83,9 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
     const MatrixX A = -weighted * (c.hull_response * modes.normal + c.C * Q);
     MatrixX select = MatrixX::Zero(modes.modes.size(), modes_);  // motion of Bo to these modes of the middle
     for (std::size_t k = 0; k < modes.modes.size(); ++k) select.row(k) = T.row(modes.modes[k]);
-    m.Q = Q * select;
-    m.W = select.transpose() * W;
     A_inf_ += select.transpose() * A * select;
-    m.P = P.cast<float>();
-    classes_.push_back(std::move(m));
+    classes_.push_back({CompactMatrix(P), Q * select, select.transpose() * W});
   }
-  // The local part, which no wave is in, by finer panels: what these panels miss of it goes with every frequency.
-  const double longest = panel / options.refinement;
-  const MatrixX missed = infinite_frequency_mass(hulls, layout, 0.5 * longest, options.density) -
-                         infinite_frequency_mass(hulls, layout, longest, options.density);
-  A_inf_ += T.transpose() * missed * T;
   A_inf_ = (0.5 * (A_inf_ + A_inf_.transpose())).eval();
   stable_ = kStable * 2.0 / std::sqrt(fastest);
   if (!(dt_ > 0.0 && dt_ <= stable_)) {
@@ -97,7 +97,8 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
 
 double PanelMarch::bytes() const {
   double sum = 0.0;
-  for (const MarchClass& c : classes_) sum += 4.0 * static_cast<double>(c.P.size()) + 8.0 * static_cast<double>(c.Q.size() + c.W.size());
+  for (const MarchClass& c : classes_)
+    sum += 4.0 * static_cast<double>(c.P.size()) + 8.0 * static_cast<double>(c.Q.size() + c.W.size());
   return sum;
 }
 
