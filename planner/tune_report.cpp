@@ -15,6 +15,8 @@ namespace {
 
 std::string share(double v) { return std::isnan(v) ? "–" : fmt::format("{:.2f} %", 100.0 * v); }
 
+std::string paragraph(const std::string& text) { return text.empty() ? text : "<p>" + escape_html(text) + "</p>"; }
+
 /// Colours of the map from the lowest objective to the highest; a cross where a limit is broken.
 std::string map_svg(const Evaluator& evaluator, const GainTuning& result) {
   const GainMap& map = result.map;
@@ -85,6 +87,36 @@ std::string tuning_verdict(const GainTuning& result) {
                      result.tuned.violation() > 0.0 ? "; a hard limit is broken with either" : "");
 }
 
+std::string tuning_scope(const Evaluator& evaluator) {
+  const OperationPart& part = evaluator.base().plan.part;
+  if (part.whole()) return {};
+  const std::string& phase = evaluator.base().specification.operation.phases[static_cast<std::size_t>(part.phase)].name;
+  if (part.hold > 0.0)
+    return fmt::format("At rest in the pose that {} ends in, {:.4g} s in the sea.", phase, part.hold);
+  return fmt::format("Phase {} alone, begun at rest.", phase);
+}
+
+std::string schedule_verdict(const GainTuning& result) {
+  if (!result.schedule) return {};
+  const GainSchedule& s = *result.schedule;
+  if (!s.message.empty()) return "No gain schedule: " + s.message + ".";
+  return fmt::format("Gains over the fall length: objective {:.4f} with a schedule, {:.4f} with one pair; {}.",
+                     s.evaluation.objective, result.tuned.objective,
+                     s.worth_it ? "the schedule is in the tuned case" : "not worth it, the tuned case has one pair");
+}
+
+ReportTable schedule_table(const GainTuning& result) {
+  ReportTable table{"Gains over the fall length",
+                    "Factors on the tuned gains, linear between the two lengths.",
+                    {"", "fall, m", "factor on kp", "factor on kd"},
+                    {}};
+  if (result.schedule)
+    for (const GainSchedule::Point& p : result.schedule->points)
+      table.rows.push_back({p.name, fmt::format("{:.2f}", p.fall), fmt::format("{:.3f}", p.kp_factor),
+                            fmt::format("{:.3f}", p.kd_factor)});
+  return table;
+}
+
 ReportTable gain_table(const Evaluator& evaluator, const GainTuning& result) {
   ReportTable table{"Gains", "", {"", "case", "tuned", "lower bound", "upper bound"}, {}};
   const auto& variables = evaluator.base().plan.variables;
@@ -147,8 +179,9 @@ std::string tuning_report(const Evaluator& evaluator, const GainTuning& result) 
   const Case& c = evaluator.base();
   ReportPage page;
   page.section("gains", "Gains",
-               table_html(gain_table(evaluator, result)) + table_html(tuning_objective_table(evaluator, result)) +
-                   map_svg(evaluator, result));
+               paragraph(tuning_scope(evaluator)) + table_html(gain_table(evaluator, result)) +
+                   table_html(tuning_objective_table(evaluator, result)) + paragraph(schedule_verdict(result)) +
+                   (result.schedule ? table_html(schedule_table(result)) : std::string()) + map_svg(evaluator, result));
   page.section("swing", "Damping of the swing", table_html(swing_table(result)));
   page.section("winches", "Winches", table_html(winch_table(result)));
   std::string scenarios = "<ul>";

@@ -15,6 +15,12 @@ ReportTable gain_table(const Evaluator& evaluator, const GainTuning& result);
 ReportTable tuning_objective_table(const Evaluator& evaluator, const GainTuning& result);
 /// Damping ratio of each swing without taglines, with the case's gains and with the tuned ones.
 ReportTable swing_table(const GainTuning& result);
+/// Which part of the operation was tuned for; empty: all of it.
+std::string tuning_scope(const Evaluator& evaluator);
+/// Whether gains over the fall length are worth having; empty if the case does not ask.
+std::string schedule_verdict(const GainTuning& result);
+/// The factors of the schedule; no rows if there is none.
+ReportTable schedule_table(const GainTuning& result);
 /// Winches that cannot follow, and what they would have to do.
 ReportTable winch_table(const GainTuning& result);
 

@@ -9,6 +9,7 @@
 
 #include "problems/fit_spec.h"
 #include "results/limits.h"
+#include "sim/operation.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -63,6 +64,7 @@ struct PlanSpec {
   ParetoSpec pareto;
   double time_budget = 0.0;              // s of wall time, 0 = none (a time budget gives up reproducibility)
   int seed = 1;
+  OperationPart part;                    // of the operation that is simulated; not of the case file
 };
 
 /// Tuning of tagline gains: the plan's objective and limits over few variables.
@@ -70,6 +72,10 @@ struct TuneSpec {
   std::vector<VariableSpec> variables;   // empty = Kp and Kd of all taglines together
   std::string algorithm = "auto";        // with gradients where they are valid
   int evaluations = 20;                  // points
+  std::string phase;                     // this phase alone; empty = the whole operation
+  std::string pose;                      // instead: at rest at the end of this phase, for `hold`
+  double hold = 300.0;                   // s
+  bool schedule = false;                 // factors on the gains over the fall length as well
   int map = 0;                           // points along each side of a map of the objective over the first two variables
 };
 

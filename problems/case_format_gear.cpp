@@ -94,6 +94,21 @@ const Table& wire_table() {
   return table;
 }
 
+const Table& gain_point_table() {
+  static const Table table = [] {
+    using S = GainPointSpec;
+    TableOf<S> t("taglines.gain_schedule", "Factors on the gains at one length of the hoist wire.");
+    t.name("name", &S::name, "Name.");
+    t.number("fall_m", &S::fall, unit::m, positive(),
+             "Length of the hoist wire. Linear between the entries, constant outside; in rising order.")
+        .require();
+    t.number("kp_factor", &S::kp_factor, unit::one, not_negative(), "Factor on kp.");
+    t.number("kd_factor", &S::kd_factor, unit::one, not_negative(), "Factor on kd.");
+    return t.build();
+  }();
+  return table;
+}
+
 const Table& tagline_table() {
   static const Table table = [] {
     using S = TaglineSpec;
@@ -107,6 +122,9 @@ const Table& tagline_table() {
     t.text("wire", &S::wire, "Hoist wire whose angle is controlled.").names(Reference::wire).require();
     t.number("kp_kN_per_deg", &S::kp, unit::kN_per_deg, not_negative(), "Proportional gain.").require();
     t.number("kd_kN_s_per_deg", &S::kd, unit::kN_s_per_deg, not_negative(), "Derivative gain.").require();
+    t.tables("gain_schedule", &S::gain_schedule, "name", &gain_point_table,
+             "Factors on both gains over the length of the hoist wire.")
+        .absent("the same gains throughout");
     t.number("set_point_deg", &S::set_point, unit::deg, Range{-90.0, 90.0, false},
              "Wanted angle of the hoist wire, positive away from the winch.");
     t.number("pretension_kN", &S::pretension, unit::kN, not_negative(), "Pull when there is nothing to correct.");

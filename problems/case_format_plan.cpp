@@ -135,6 +135,13 @@ const Table& tune_table() {
     t.text("algorithm", &S::algorithm,
            "Algorithm: with exact gradients `slsqp`, `ipopt`, `ccsaq`, `mma`; without `cobyla`; or `auto`.");
     t.integer("evaluations", &S::evaluations, Range{1, 100000, false}, "Budget of points.");
+    t.text("phase", &S::phase, "This phase alone, begun at rest.").names(Reference::phase).absent("the whole operation");
+    t.text("pose", &S::pose, "Instead: at rest in the pose that this phase ends in.")
+        .names(Reference::phase)
+        .absent("the whole operation");
+    t.number("hold_s", &S::hold, unit::s, positive(), "How long in that pose.");
+    t.boolean("schedule", &S::schedule,
+              "Whether factors on the gains over the fall length are tuned too, after the gains.");
     t.integer("map", &S::map, Range{0, 200, false},
               "Points along each side of a map of the objective over the first two variables; 0 = no map.");
     return t.build();

@@ -95,9 +95,15 @@ ScenarioOutcome Evaluator::run_scenario(const Case& c, const ScenarioSpec& scena
   outcome.metrics.assign(metric_names_.size(), kNaN);
   try {
     const Model model = build_model(in_scenario(c.specification, scenario));
-    const Operation operation = build_operation(model);
-    double end = operation.planned_duration();
+    Operation operation = build_operation(model);
     RunOptions options;
+    SystemState start;
+    if (const OperationPart& part = case_.plan.part; !part.whole()) {
+      start = start_of(operation, part);
+      options.from = &start;
+      operation = part_of(operation, part);
+    }
+    double end = operation.planned_duration();
     options.progress = [&](double, double t_end) {
       end = t_end;
       return !(stop_ && stop_->load());

@@ -46,6 +46,7 @@ Evaluator::SmoothOutcome Evaluator::run_smooth(const Case& c, const ScenarioSpec
   };
   TangentRequest request;
   request.condition = [&](const Specification& s) { return in_scenario(s, scenario); };
+  request.part = case_.plan.part;
   std::set<std::string> channels;
   for (const std::string& name : smooth_names_)
     for (const std::string& channel : channels_of_metric(case_.specification, name)) channels.insert(channel);

@@ -82,7 +82,8 @@ LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double
 }  // namespace
 
 TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const RunOptions& options) {
-  const double until = request.until > 0.0 ? request.until : c.specification.solver.max_duration;
+  double until = request.until > 0.0 ? request.until : c.specification.solver.max_duration;
+  if (!request.part.whole()) until = 0.0;  // its time begins with the part
   const Lift base = lift_of(c, request.condition, until);
   const int keys = static_cast<int>(request.keys.size());
   std::vector<LiftTwin> twins(request.keys.size());
@@ -101,12 +102,26 @@ TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
 
+  const Operation* operation = base.operation.get();
+  Operation part;
+  SystemState start;
+  if (!request.part.whole()) {
+    part = part_of(*base.operation, request.part);
+    start = start_of(*base.operation, request.part);
+    operation = &part;
+    for (LiftTwin& twin : twins)
+      for (std::size_t side = 0; side < 2; ++side) {
+        twin.from[side] = std::make_shared<const SystemState>(start_of(*twin.operation[side], request.part));
+        twin.operation[side] = std::make_shared<const Operation>(part_of(*twin.operation[side], request.part));
+      }
+  }
   TangentRun result;
   for (const LiftTwin& twin : twins) {
     result.static_poses.push_back({twin.operation[0]->static_poses, twin.operation[1]->static_poses});
     result.widths.push_back(twin.width);
   }
   RunOptions run_with = options;
+  if (!request.part.whole()) run_with.from = &start;
   if (request.from) run_with.from = &*request.from;
   if (request.until > 0.0) run_with.until = request.until;
   TangentOptions wanted;
@@ -115,7 +130,7 @@ TangentRun run_with_tangents(const Case& c, const TangentRequest& request, const
   if (request.start_change) wanted.start_change = request.start_change(result);
   wanted.growth_limit = request.growth_limit;
   try {
-    result.trajectory = simulate_with_tangents(*base.model, *base.operation, run_with, twins, wanted, result.tangents);
+    result.trajectory = simulate_with_tangents(*base.model, *operation, run_with, twins, wanted, result.tangents);
   } catch (const std::invalid_argument& error) {
     throw CaseError(std::string("derivatives: ") + error.what());
   }

@@ -2,8 +2,8 @@
 //
 //   z(t; p), dz/dp_j     z  recorded channels, p_j  a numeric key of the case in its own unit
 //
-// The gradient of the search and the Jacobian of the fit both come from here. Any numeric key will do as long as it does
-// not change what the lift is made of: the lift is built for the key a little larger and a little smaller, through
+// The gradient of the search and the Jacobian of the fit both come from here. Any numeric key will do as long as it
+// does not change what the lift is made of: the lift is built for the key a little larger and a little smaller, through
 // statics and all, and tangent.h carries the difference through the run.
 #pragma once
 
@@ -30,8 +30,9 @@ struct TangentRequest {
   /// Instead: how `from` changes, rows as state_directions(), a column for each key, then further columns of the
   /// derivatives. It is given the static poses and widths of the twins, and nothing else of the run.
   std::function<MatrixX(const TangentRun&)> start_change;
-  double until = 0.0;           // s; 0 = as the case says
-  double growth_limit = 1e4;    // see TangentOptions
+  double until = 0.0;         // s; 0 = as the case says
+  OperationPart part;         // of the operation, from rest; the whole by default
+  double growth_limit = 1e4;  // see TangentOptions
 };
 
 struct TangentRun {

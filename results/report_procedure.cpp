@@ -188,10 +188,11 @@ std::string gear_sentences(const Specification& s) {
                        fixed_number(100.0 * h.critical_fraction[3], 1));
   }
   for (const TaglineSpec& line : s.taglines)
-    out += fmt::format("<li>Tagline {}: {}, Kp {} kN/°, Kd {} kN s/°, tension to {} t, line speed {}.</li>",
+    out += fmt::format("<li>Tagline {}: {}, Kp {} kN/°, Kd {} kN s/°{}, tension to {} t, line speed {}.</li>",
                        escape_html(readable_name(line.name)), line.active ? "active" : "not used",
                        fixed_number(line.kp * std::numbers::pi / 180.0 / 1000.0, 1),
                        fixed_number(line.kd * std::numbers::pi / 180.0 / 1000.0, 1),
+                       line.gain_schedule.empty() ? "" : " times factors over the fall length",
                        fixed_number(line.tension_max / 1000.0 / kGravity, 1),
                        line.speed_max > 0.0 ? "to " + fixed_number(60.0 * line.speed_max, 1) + " m/min" : "unlimited");
   return out;

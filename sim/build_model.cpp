@@ -424,7 +424,8 @@ class ModelBuilder {
 
   void start() {
     SystemWorkspace work = system().make_workspace();
-    if (taken_over_ && same_statics(system(), other_->system(), other_->initial_state())) {
+    if (taken_over_ && system().elements.size() == other_->system().elements.size() &&
+        same_statics(system(), other_->system(), other_->initial_state())) {
       state() = other_->initial_state();
       system().settle_elements(state(), work);
     } else if (spec().solver.static_start) {

@@ -43,6 +43,7 @@ std::unique_ptr<const ForceElement> ElementBuilder::tagline(const TaglineSpec& t
     }
   o.kp = t.kp;
   o.kd = t.kd;
+  for (const GainPointSpec& g : t.gain_schedule) o.schedule.push_back({g.fall, g.kp_factor, g.kd_factor});
   o.set_point = t.set_point;
   o.pretension = t.pretension;
   o.tension_max = t.tension_max;

@@ -264,6 +264,49 @@ Operation build_operation_like(const Model& model, const Model& other, const Ope
                      [&](std::size_t p, const SystemState& before) { return neighbour.end_of_phase(p, before); });
 }
 
+Operation part_of(const Operation& whole, const OperationPart& part) {
+  constexpr double kAtOnce = 1e9;  // travels per s
+  Operation operation;
+  const std::size_t last = static_cast<std::size_t>(part.phase);
+  for (std::size_t p = 0; p <= last; ++p) {
+    Phase phase = whole.phases[p];
+    phase.wait_for = {};
+    phase.wait_contact = -1;
+    if (p < last) phase.duration = 0.0;
+    if (p == last && part.hold > 0.0) phase.duration = part.hold;
+    if (p < last || part.hold > 0.0) phase.moves.clear();
+    operation.phases.push_back(std::move(phase));
+  }
+  // The drives jump in the first instant; the state to begin with is there already.
+  const SystemState& begin = whole.equilibria[part.begins_at()];
+  for (std::size_t d = 0; d < begin.drive.size(); ++d) {
+    if (begin.drive[d].position == 0.0) continue;
+    Move move;
+    move.drive = static_cast<int>(d);
+    ProfileSpec step;
+    step.shape = ProfileSpec::Shape::trapezoid;
+    step.ramp = 0.0;
+    move.profile = RateProfile(step, begin.drive[d].position, kAtOnce * std::abs(begin.drive[d].position));
+    move.background = true;
+    operation.phases.front().moves.push_back(move);
+  }
+  operation.static_poses.assign(whole.static_poses.begin(), whole.static_poses.begin() + part.phase + 2);
+  operation.equilibria.assign(whole.equilibria.begin(), whole.equilibria.begin() + part.phase + 2);
+  if (part.hold > 0.0) {  // it begins as it ends
+    operation.static_poses[last] = operation.static_poses[last + 1];
+    operation.equilibria[last] = operation.equilibria[last + 1];
+  }
+  return operation;
+}
+
+SystemState start_of(const Operation& whole, const OperationPart& part) {
+  SystemState state = whole.equilibria[part.begins_at()];
+  state.t = 0.0;
+  state.phase = part.phase;
+  for (DriveState& drive : state.drive) drive.rate = 0.0;
+  return state;
+}
+
 bool same_poses(const OperationSpec& a, const OperationSpec& b) {
   if (a.phases.size() != b.phases.size()) return false;
   for (std::size_t i = 0; i < a.phases.size(); ++i) {

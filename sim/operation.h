@@ -21,8 +21,8 @@ struct Phase {
   std::string name;
   PhaseSpec::Stage stage = PhaseSpec::Stage::hanging;
   EventSpec wait_for;
-  int wait_contact = -1;    // element index of the contact waited for
-  double duration = 0.0;    // s, from its start to the end of its foreground moves (and at least the specified time)
+  int wait_contact = -1;  // element index of the contact waited for
+  double duration = 0.0;  // s, from its start to the end of its foreground moves (and at least the specified time)
   std::vector<Move> moves;
 };
 
@@ -43,6 +43,21 @@ Operation build_operation(const Model& model, double until = 0.0);
 /// The same for a model that differs little from `other`, with as many phases as `like`, the operation of `other`. An
 /// equilibrium of `other` that is one of this model as well is taken over; else it is where the search for it begins.
 Operation build_operation_like(const Model& model, const Model& other, const Operation& like);
+
+/// A part of an operation: one phase, or the pose at its end held for a while.
+struct OperationPart {
+  int phase = -1;     // -1: no part, the whole operation
+  double hold = 0.0;  // s; > 0: at rest at the phase's end for so long
+
+  bool whole() const { return phase < 0; }
+  /// Index of the static pose that it begins in.
+  std::size_t begins_at() const { return static_cast<std::size_t>(phase) + (hold > 0.0 ? 1 : 0); }
+};
+
+/// The operation with everything before the part done in no time and nothing after it, to be run from start_of().
+Operation part_of(const Operation& whole, const OperationPart& part);
+/// At rest where the part begins.
+SystemState start_of(const Operation& whole, const OperationPart& part);
 
 /// True if both ask for the same phases and moves with the same travels and goals: they differ at most in timing
 /// (speeds, profiles, delays, durations, waits), so that every pose is the same.

@@ -168,6 +168,15 @@ struct WireSpec {
   double breaking_load = 0.0;              // N; 0 = not given
 };
 
+/// Factors on a tagline's gains while its hoist wire has this length.
+struct GainPointSpec {
+  std::string name;
+  double fall = 0.0;                       // m
+  double kp_factor = 1.0, kd_factor = 1.0;
+
+  bool operator==(const GainPointSpec&) const = default;
+};
+
 struct TaglineSpec {
   std::string name;
   std::string from, to;                    // winch body, controlled body
@@ -175,6 +184,7 @@ struct TaglineSpec {
   std::string wire;                        // the hoist wire whose angle is controlled
   double kp = 0.0;                         // N/rad
   double kd = 0.0;                         // N s/rad
+  std::vector<GainPointSpec> gain_schedule;  // by rising fall; empty = the gains as they are throughout
   double set_point = 0.0;                  // rad, wanted angle of the hoist wire towards the winch's far side
   double pretension = 0.0;                 // N
   double tension_max = 0.0;                // N

@@ -19,6 +19,8 @@ namespace stillhook {
 struct LiftTwin {
   std::array<std::shared_ptr<const Model>, 2> model;
   std::array<std::shared_ptr<const Operation>, 2> operation;
+  /// Where the run begins, of either side; null: as its model.
+  std::array<std::shared_ptr<const SystemState>, 2> from;
   double width = 1.0;  // in the parameter's unit
   double range = 1.0;  // how far the parameter may move: the measure of growth
 };
@@ -28,7 +30,8 @@ struct TangentOptions {
   /// Further directions after the twins: every coordinate of the initial state, in the order of state_directions().
   bool by_initial_state = false;
   /// How the given initial state changes, rows as state_directions(): a column for each twin, then further directions.
-  /// Empty: it does not change. For a run that starts elsewhere, without by_initial_state.
+  /// Empty: it does not change. For a run that starts elsewhere than its
+  /// models and twins, without by_initial_state.
   MatrixX start_change;
   /// A body that moves by more than this (m or rad) for the range of a parameter: chaos of snap loads, not a gradient.
   double growth_limit = 1e4;

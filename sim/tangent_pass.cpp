@@ -70,7 +70,9 @@ std::vector<std::array<SystemState, 2>> TangentPass::starts(const SystemState& b
   for (std::size_t j = 0; j < twins_.size(); ++j) {
     const LiftTwin& twin = twins_[j];
     systems.push_back({{&twin.model[0]->system(), &twin.model[1]->system()}, twin.width});
-    if (!started_elsewhere_)
+    if (twin.from[0])
+      all.push_back({*twin.from[0], *twin.from[1]});
+    else if (!started_elsewhere_)
       all.push_back({twin.model[0]->initial_state(), twin.model[1]->initial_state()});
     else if (change.size() > 0)
       all.push_back(moved_both_ways(base, change.col(static_cast<Eigen::Index>(j)), twin.width));
@@ -103,6 +105,9 @@ void TangentPass::start(const SystemState& state) {
   range_ = VectorX::Ones(p);
   for (std::size_t j = 0; j < twins_.size(); ++j) range_[static_cast<Eigen::Index>(j)] = twins_[j].range;
   drives_.assign(static_cast<std::size_t>(p), {state.drive, state.drive});
+  for (std::size_t j = 0; j < twins_.size(); ++j)
+    for (std::size_t side = 0; side < 2; ++side)
+      if (twins_[j].from[side]) drives_[j][side] = twins_[j].from[side]->drive;
   slope_ = MatrixX::Zero(static_cast<Eigen::Index>(out_.channels.size()), p);
   gap_slope_ = MatrixX::Zero(1, p);
   last_gap_slope_ = parted_slope_ = end_slope_ = VectorX::Zero(p);

@@ -221,8 +221,10 @@ FitOutcome solve_fit(FitProblem& problem, const FitOptions& options) {
   outcome.cost = summary.final_cost;
   outcome.iterations = static_cast<int>(summary.iterations.size());
   outcome.evaluations = runner.evaluations();
-  if (outcome.usable)
-    for (std::size_t b = 0; b < x.size(); ++b) problem.blocks[b].value = x[b];
+  if (!outcome.usable) return outcome;
+  for (std::size_t b = 0; b < x.size(); ++b) problem.blocks[b].value = x[b];
+  runner.go_to(x);  // mostly where it is
+  outcome.units = runner.take();
   return outcome;
 }
 

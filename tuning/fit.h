@@ -59,6 +59,14 @@ struct FitOptions {
   std::function<void(const FitProgress&)> progress;
 };
 
+/// Residuals and derivatives of a unit.
+struct UnitValues {
+  bool ok = false;
+  std::string message;  // why not
+  VectorX r;
+  std::vector<MatrixX> J;
+};
+
 struct FitOutcome {
   bool usable = false;     // the blocks hold a point at least as good as the start
   bool converged = false;
@@ -66,18 +74,13 @@ struct FitOutcome {
   std::string message;
   double cost = 0.0;
   int iterations = 0, evaluations = 0;  // evaluations: of all units together
+  std::vector<UnitValues> units;        // at the blocks as they are left, if usable
 };
 
 /// Improves the blocks in place. Rethrows what a unit throws at the start; later it counts as a failed simulation.
 FitOutcome solve_fit(FitProblem& problem, const FitOptions& options);
 
-/// The residuals and derivatives of every unit at the blocks' values; false if one fails.
-struct UnitValues {
-  bool ok = false;
-  std::string message;  // why not
-  VectorX r;
-  std::vector<MatrixX> J;
-};
+/// Residuals and derivatives of every unit at the blocks' values.
 std::vector<UnitValues> evaluate_units(const FitProblem& problem);
 
 }  // namespace stillhook

@@ -59,9 +59,11 @@ std::vector<LineUse> use_of_lines(const Specification& specification, const Traj
     const auto largest = [&](const char* quantity) {
       double value = 0.0;
       const int c = run.find(line.name + quantity);
-      for (const auto& phase : run.extremes)
-        value = std::max({value, std::abs(phase[static_cast<std::size_t>(c)].min),
-                          std::abs(phase[static_cast<std::size_t>(c)].max)});
+      for (const auto& phase : run.extremes) {
+        const Extreme& e = phase[static_cast<std::size_t>(c)];
+        if (e.min <= e.max)
+          value = std::max({value, std::abs(e.min), std::abs(e.max)});  // a phase of no length has none
+      }
       return value;
     };
     use.speed = largest(".line_speed");
@@ -71,6 +73,16 @@ std::vector<LineUse> use_of_lines(const Specification& specification, const Traj
     uses.push_back(use);
   }
   return uses;
+}
+
+Trajectory run_part(const Specification& specification, const OperationPart& part) {
+  const Model model = build_model(specification);
+  const Operation operation = build_operation(model);
+  if (part.whole()) return simulate(model, operation);
+  const SystemState start = start_of(operation, part);
+  RunOptions options;
+  options.from = &start;
+  return simulate(model, part_of(operation, part), options);
 }
 
 std::vector<WinchDemand> winch_demands(const Evaluator& evaluator, const Case& tuned, const TuningOptions& options) {
@@ -91,9 +103,8 @@ std::vector<WinchDemand> winch_demands(const Evaluator& evaluator, const Case& t
       line.speed_max = 0.0;
       line.tension_max *= 1e3;
     }
-    const auto uses = [](const Specification& specification) {
-      const Model model = build_model(specification);
-      return use_of_lines(specification, simulate(model, build_operation(model)));
+    const auto uses = [&](const Specification& specification) {
+      return use_of_lines(specification, run_part(specification, evaluator.base().plan.part));
     };
     const std::vector<LineUse> got = uses(real), wanted = uses(ideal);
     for (std::size_t k = 0; k < demands.size(); ++k) {
@@ -106,35 +117,55 @@ std::vector<WinchDemand> winch_demands(const Evaluator& evaluator, const Case& t
   return demands;
 }
 
-}  // namespace
-
-Case tuning_case(const Case& c) {
-  if (std::none_of(c.specification.taglines.begin(), c.specification.taglines.end(),
-                   [](const TaglineSpec& line) { return line.active; }))
-    throw CaseError(c.file + ": there is no active tagline to tune");
-  if (c.plan.objective.empty())
-    throw CaseError(c.file + ": [plan.objective] has no terms: there is nothing to tune for");
-  Case tuned = c;
-  tuned.plan.variables = c.tune.variables.empty() ? usual_gains(c) : c.tune.variables;
-  return tuned;
+OperationPart part_to_tune(const Case& c) {
+  const TuneSpec& tune = c.tune;
+  if (tune.phase.empty() && tune.pose.empty()) return {};
+  if (!tune.phase.empty() && !tune.pose.empty())
+    throw CaseError(c.file + ": [tune] phase and pose: one of them, not both");
+  const std::string& name = tune.pose.empty() ? tune.phase : tune.pose;
+  const std::vector<PhaseSpec>& phases = c.specification.operation.phases;
+  const auto at = std::find_if(phases.begin(), phases.end(), [&](const PhaseSpec& p) { return p.name == name; });
+  if (at == phases.end()) throw CaseError(c.file + ": [tune] there is no phase '" + name + "'");
+  return {static_cast<int>(at - phases.begin()), tune.pose.empty() ? 0.0 : tune.hold};
 }
 
-GainTuning tune_gains(const Evaluator& evaluator, const TuningOptions& options) {
-  GainTuning result;
-  const TuneSpec& tune = evaluator.base().tune;
-  result.start = result.gains = evaluator.baseline();
-  const double scenarios = static_cast<double>(evaluator.scenarios().size());
+/// Takes out of the case what its part has not: metrics that are none in a run of it.
+std::vector<std::string> leave_out(Case& c) {
+  const Evaluator trial(c);
+  const std::vector<ScenarioOutcome> outcomes = trial.outcomes(trial.evaluate(trial.baseline()));
+  for (const ScenarioOutcome& o : outcomes)
+    if (o.status != RunStatus::completed) throw CaseError(c.file + ": the part to be tuned does not run: " + o.message);
+  std::vector<std::string> names;
+  const auto missing = [&](const std::string& metric) {
+    const bool none = std::any_of(outcomes.begin(), outcomes.end(),
+                                  [&](const ScenarioOutcome& o) { return !std::isfinite(trial.metric_of(o, metric)); });
+    if (none && std::find(names.begin(), names.end(), metric) == names.end()) names.push_back(metric);
+    return none;
+  };
+  std::erase_if(c.plan.objective, [&](const ObjectiveTerm& term) { return missing(term.metric); });
+  std::erase_if(c.limits, [&](const LimitSpec& limit) { return limit.hard && missing(limit.metric); });
+  if (c.plan.objective.empty())
+    throw CaseError(c.file + ": no term of [plan.objective] has a value in the part to be tuned");
+  return names;
+}
 
-  Evaluation best;
-  Eigen::VectorXd best_x;
+struct Best {
+  SearchReport report;
+  Eigen::VectorXd x;  // the best by the metrics as they are; empty if none
+};
+
+/// The smooth problem with exact gradients; what counts in the end are the metrics as they are.
+Best search(const Evaluator& evaluator, const TuneSpec& tune, const std::string& stage, const TuningOptions& options) {
+  Best best;
+  Evaluation at_best;
   SearchProblem smooth = evaluator.smooth_problem({});
   smooth.evaluate_with_gradient = [&](const Eigen::VectorXd& x) {
     const Evaluation e = evaluator.evaluate_smooth(x, {}, true);
     if (!e.interrupted) {
       const Evaluation as_is = evaluator.aggregated(evaluator.outcomes(e));
-      if (best_x.size() == 0 || better(as_is, best, 0.0)) {
-        best = as_is;
-        best_x = x;
+      if (best.x.size() == 0 || better(as_is, at_best, 0.0)) {
+        at_best = as_is;
+        best.x = x;
       }
     }
     return e;
@@ -147,29 +178,120 @@ GainTuning tune_gains(const Evaluator& evaluator, const TuningOptions& options) 
   with.x_tolerance = 1e-3;  // of the range: a gain is set to no more than that
   with.should_stop = [&] { return options.stop && options.stop->load(); };
   with.progress = [&](const SearchProgress& p) {
-    if (options.progress) options.progress(p.stage, static_cast<double>(p.evaluations) / p.budget);
+    if (options.progress) options.progress(stage + p.stage, static_cast<double>(p.evaluations) / p.budget);
   };
   if (const std::string fault = solve_fault(smooth, with); !fault.empty()) throw CaseError("tune.algorithm: " + fault);
-  result.report = solve(smooth, with);
+  best.report = solve(smooth, with);
+  return best;
+}
+
+/// Shortest and longest fall of the taglines while the load hangs on connected lines, m.
+std::pair<double, double> fall_range(const Case& c, const OperationPart& part) {
+  const Model model = build_model(c.specification);
+  const Operation operation = build_operation(model);
+  const auto& lines = c.specification.taglines;
+  const auto line = std::find_if(lines.begin(), lines.end(), [](const TaglineSpec& t) { return t.active; });
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  bool connected = line->active_from.empty();
+  for (std::size_t p = 0; p < operation.phases.size(); ++p) {
+    connected = connected || operation.phases[p].name == line->active_from;
+    if (!connected || operation.phases[p].stage != PhaseSpec::Stage::hanging) continue;
+    if (!part.whole() && static_cast<int>(p) != part.phase) continue;
+    for (const std::size_t pose : {p, p + 1}) {
+      if (part.hold > 0.0 && pose == p) continue;
+      const double length = operation.static_poses[pose].values.at(line->wire + ".length");
+      low = std::min(low, length);
+      high = std::max(high, length);
+    }
+  }
+  return {low, high};
+}
+
+GainSchedule tune_schedule(const Evaluator& evaluator, const GainTuning& pair, const TuningOptions& options,
+                           double& simulations) {
+  constexpr double kChange = 1.02;  // of the fall length that is worth a schedule
+  constexpr double kWorth = 0.01;   // of the objective
+  GainSchedule s;
+  const Case tuned = evaluator.case_at(pair.gains);
+  const auto [low, high] = fall_range(tuned, evaluator.base().plan.part);
+  if (!(high > kChange * low)) {
+    s.message = "the falls hardly change their length while the lines act: there is nothing to schedule";
+    return s;
+  }
+  std::vector<Override> overrides = tuned.overrides;
+  for (const TaglineSpec& line : tuned.specification.taglines)
+    overrides.push_back({"taglines." + line.name + ".gain_schedule",
+                         "[{ name = \"short\", fall_m = " + std::to_string(low) +
+                             " }, { name = \"long\", fall_m = " + std::to_string(high) + " }]"});
+  Case scheduled = read_case_text(tuned.text, tuned.file, tuned.directory, overrides);
+  scheduled.plan = evaluator.base().plan;
+  scheduled.limits = evaluator.base().limits;
+  scheduled.plan.variables.clear();
+  for (const char* point : {"short", "long"})
+    for (const char* gain : {"kp_factor", "kd_factor"})
+      scheduled.plan.variables.push_back(
+          {std::string("taglines.*.gain_schedule.") + point + "." + gain, 0.2, 5.0, false});
+  const Evaluator with(scheduled, evaluator.scenarios(), options.stop);
+  const Best best = search(with, evaluator.base().tune, "schedule, ", options);
+  simulations += static_cast<double>(evaluator.scenarios().size()) * (kGradientCharge * best.report.evaluations + 1.0);
+  const Eigen::VectorXd x = best.x.size() > 0 ? best.x : with.baseline();
+  s.evaluation = with.evaluate(x);
+  s.points = {{"short", low, x[0], x[1]}, {"long", high, x[2], x[3]}};
+  s.worth_it = s.evaluation.usable && s.evaluation.violation() <= std::max(0.0, pair.tuned.violation()) &&
+               s.evaluation.objective < pair.tuned.objective - kWorth * std::abs(pair.tuned.objective);
+  s.scheduled = with.case_at(x);
+  return s;
+}
+
+}  // namespace
+
+Case tuning_case(const Case& c, std::vector<std::string>* left_out) {
+  if (std::none_of(c.specification.taglines.begin(), c.specification.taglines.end(),
+                   [](const TaglineSpec& line) { return line.active; }))
+    throw CaseError(c.file + ": there is no active tagline to tune");
+  if (c.plan.objective.empty())
+    throw CaseError(c.file + ": [plan.objective] has no terms: there is nothing to tune for");
+  Case tuned = c;
+  tuned.plan.variables = c.tune.variables.empty() ? usual_gains(c) : c.tune.variables;
+  tuned.plan.part = part_to_tune(c);
+  if (!tuned.plan.part.whole()) {
+    const std::vector<std::string> names = leave_out(tuned);
+    if (left_out) *left_out = names;
+  }
+  return tuned;
+}
+
+GainTuning tune_gains(const Evaluator& evaluator, const TuningOptions& options) {
+  GainTuning result;
+  const TuneSpec& tune = evaluator.base().tune;
+  result.start = result.gains = evaluator.baseline();
+  const double scenarios = static_cast<double>(evaluator.scenarios().size());
+
+  const Best best = search(evaluator, tune, "", options);
+  result.report = best.report;
   result.simulations += kGradientCharge * scenarios * result.report.evaluations;
 
   result.baseline = evaluator.evaluate(result.start);
   result.tuned = result.baseline;
   result.simulations += 2.0 * scenarios;
-  if (best_x.size() > 0) {
-    const Evaluation tuned = evaluator.evaluate(best_x);
+  if (best.x.size() > 0) {
+    const Evaluation tuned = evaluator.evaluate(best.x);
     if (better(tuned, result.baseline, 0.0)) {
       result.tuned = tuned;
-      result.gains = best_x;
+      result.gains = best.x;
       result.improved = true;
     }
   }
   if (result.report.status == SearchStatus::interrupted) return result;
   const Case tuned = evaluator.case_at(result.gains);
   if (options.progress) options.progress("swing", 0.0);
-  result.before = swing_modes(evaluator.base().specification);
-  result.after = swing_modes(tuned.specification);
+  SwingOptions swing;
+  swing.phase = evaluator.base().plan.part.phase;
+  result.before = swing_modes(evaluator.base().specification, swing);
+  result.after = swing_modes(tuned.specification, swing);
   result.winches = winch_demands(evaluator, tuned, options);
+  if (tune.schedule && result.tuned.usable)
+    result.schedule = tune_schedule(evaluator, result, options, result.simulations);
   draw_map(evaluator, result.gains, options, result);
   return result;
 }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
+#include <functional>
+#include <map>
 #include <memory>
 
 #include "tuning/estimates.h"
@@ -100,26 +103,45 @@ class Identifier {
     }
   }
 
-  /// The case's own values show whether the record is in the units it says, and start from the decays' p-q lines.
-  void choose_start() {
-    std::map<std::string, std::pair<double, std::string>> from_decays;
-    for (RecordModel& model : models_) {
-      const VectorX values = parameters_.of(model, values_);
-      VectorX own = VectorX::Zero(model.own());
-      Prediction simulated = predict(model, values, own, false, run_options());
-      const VectorX as_measured = own_start(model, values);
-      bool moves = simulated.ok;
-      for (std::size_t k = 0; k < model.data.channels.size() && moves; ++k) {
-        const VectorX& z = simulated.value[k];
-        moves = spread_of({z.data(), z.data() + z.size()}) > 1e-4 * spread_of(model.data.channels[k].value);
+  /// Runs `of` for every record, in parallel; the first that throws is heard.
+  void for_each_record(const std::function<void(std::size_t)>& of) const {
+    std::vector<std::exception_ptr> errors(models_.size());
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t r = 0; r < models_.size(); ++r) {
+      try {
+        of(r);
+      } catch (...) {
+        errors[r] = std::current_exception();
       }
-      if (model.body >= 0 && moves) refuse_other_units(model, simulated);
-      if (model.body >= 0) simulated = predict(model, values, as_measured, false, run_options());
-      if (!moves || model.body < 0) refuse_other_units(model, simulated);
-      own_.push_back(as_measured);
-      for (const auto& [key, value] : start_from_decay(model, compare_decays(model, simulated)))
-        from_decays.emplace(key, std::pair{value, model.data.name});
     }
+    for (const std::exception_ptr& error : errors)
+      if (error) std::rethrow_exception(error);
+  }
+
+  /// The case's own values show whether the record is in the units it says, and what its beginning looks like. Returns
+  /// the start values that its decays give.
+  std::map<std::string, double> first_look(const RecordModel& model, VectorX& own) const {
+    const VectorX values = parameters_.of(model, values_);
+    Prediction simulated = predict(model, values, VectorX::Zero(model.own()), false, run_options());
+    own = own_start(model, values);
+    bool moves = simulated.ok;
+    for (std::size_t k = 0; k < model.data.channels.size() && moves; ++k) {
+      const VectorX& z = simulated.value[k];
+      moves = spread_of({z.data(), z.data() + z.size()}) > 1e-4 * spread_of(model.data.channels[k].value);
+    }
+    if (model.body >= 0 && moves) refuse_other_units(model, simulated);
+    if (model.body >= 0) simulated = predict(model, values, own, false, run_options());
+    if (!moves || model.body < 0) refuse_other_units(model, simulated);
+    return start_from_decay(model, compare_decays(model, simulated));
+  }
+
+  void choose_start() {
+    own_.resize(models_.size());
+    std::vector<std::map<std::string, double>> starts(models_.size());
+    for_each_record([&](std::size_t r) { starts[r] = first_look(models_[r], own_[r]); });
+    std::map<std::string, std::pair<double, std::string>> from_decays;
+    for (std::size_t r = 0; r < models_.size(); ++r)
+      for (const auto& [key, value] : starts[r]) from_decays.emplace(key, std::pair{value, models_[r].data.name});
     for (std::size_t i = 0; i < parameters_.specs.size(); ++i) {
       const FitParameterSpec& spec = parameters_.specs[i];
       FitEstimate& e = result_.estimates[i];
@@ -143,8 +165,11 @@ class Identifier {
                             ? std::max({1e-12, kSharedNoise * spread_of(channel.value), scatter_of(channel.value)})
                             : channel.noise);
       sigma_.push_back(sigma);
-      before_.push_back(predict(model, parameters_.of(model, values_), own_[before_.size()], false, run_options()));
     }
+    before_.resize(models_.size());
+    for_each_record([&](std::size_t r) {
+      before_[r] = predict(models_[r], parameters_.of(models_[r], values_), own_[r], false, run_options());
+    });
   }
 
   /// Blocks: keys, then each record's own.
@@ -207,20 +232,42 @@ class Identifier {
 
   FitOutcome solve_with_weights() {
     FitOutcome outcome;
+    // Far from the solution most residuals are beyond Huber's threshold, and steps then creep: at first the threshold
+    // is that of residuals as they are at the start.
+    double loose = std::max(1.0, spread_at_start());
     for (int round = 0; round < kWeightRounds; ++round) {
       FitProblem problem = whole_records();
-      outcome = solve_fit(problem, fit_options(round == 0 ? "fit" : "fit, weights from residuals"));
+      FitOptions options = fit_options(round == 0 ? "fit" : "fit, weights from residuals");
+      options.robust *= loose;
+      outcome = solve_fit(problem, options);
       count(problem, outcome);
       if (!outcome.usable || stopped()) return outcome;
       take(problem);
-      if (!new_weights(problem)) break;
+      solution_ = std::move(outcome.units);
+      const bool again = new_weights() || loose > 1.0;
+      loose = 1.0;
+      if (!again) break;
     }
     return outcome;
   }
 
+  /// Of the weighted residuals at the start values, the channel that is furthest off.
+  double spread_at_start() const {
+    double worst = 0.0;
+    for (std::size_t r = 0; r < models_.size(); ++r)
+      for (std::size_t k = 0; before_[r].ok && k < models_[r].data.channels.size(); ++k) {
+        const std::vector<double>& y = models_[r].data.channels[k].value;
+        std::vector<double> residuals;
+        for (std::size_t i = 0; i < y.size(); ++i)
+          if (!std::isnan(y[i]))
+            residuals.push_back((before_[r].value[k][static_cast<Eigen::Index>(i)] - y[i]) / sigma_[r][k]);
+        worst = std::max(worst, robust_spread(std::move(residuals)));
+      }
+    return worst;
+  }
+
   /// Weights from what the fit leaves, where the case gives no noise. True if that changes them.
-  bool new_weights(const FitProblem& problem) {
-    const std::vector<UnitValues> units = evaluate_units(problem);
+  bool new_weights() {
     bool changed = false;
     for (std::size_t r = 0; r < models_.size(); ++r) {
       const SampleIndex index = valid_samples(models_[r].data);
@@ -230,19 +277,28 @@ class Identifier {
         std::vector<double> residuals;
         for (std::size_t i = 0; i < index.size(); ++i)
           if (index.channel[i] == static_cast<int>(k))
-            residuals.push_back(units[r].r[static_cast<Eigen::Index>(i)] * sigma_[r][k]);
+            residuals.push_back(solution_[r].r[static_cast<Eigen::Index>(i)] * sigma_[r][k]);
         const double now = std::max(robust_spread(std::move(residuals)), kLeastNoise * spread_of(channel.value));
         changed = changed || std::abs(now / sigma_[r][k] - 1.0) > kWeightChange;
+        reweigh(solution_[r], index, static_cast<int>(k), sigma_[r][k] / now);
         sigma_[r][k] = now;
       }
     }
     return changed;
   }
 
+  /// A record's residuals and derivatives of one channel, times `factor`.
+  static void reweigh(UnitValues& unit, const SampleIndex& index, int channel, double factor) {
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      if (index.channel[i] != channel) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      unit.r[row] *= factor;
+      for (MatrixX& J : unit.J) J.row(row) *= factor;
+    }
+  }
+
   void conclude() {
-    const FitProblem problem = whole_records();
-    const std::vector<UnitValues> units = evaluate_units(problem);
-    const EstimateInput input{case_, parameters_, models_, values_, own_, sigma_, before_, units};
+    const EstimateInput input{case_, parameters_, models_, values_, own_, sigma_, before_, solution_};
     fill_estimates(input, result_);
     if (case_.fit.cross_validate && models_.size() > 1) cross_validate();
     judge(case_, result_);
@@ -290,6 +346,7 @@ class Identifier {
   std::vector<VectorX> own_;
   std::vector<std::vector<double>> sigma_;
   std::vector<Prediction> before_;
+  std::vector<UnitValues> solution_;  // of the records and of what is known beforehand, at the estimates
   Identification result_;
 };
 

@@ -68,9 +68,10 @@ void add_taglines(const Model& with_lines, const SystemState& state, JacobianSum
     if (!line || !line->options().active || state.phase < line->options().active_from_phase) continue;
     const TaglineOptions& o = line->options();
     const LineMotion at = line_motion(o.to, o.from, now);
+    const Tagline::Gains gains = line->gains(now);
     for (const PlaneAngle::Gradient& g : line->angle().gradient(now)) {
-      const Eigen::Matrix<double, 3, 6> A = -kPullShare * at.e * (o.kp * g.angle_xi + o.kd * g.rate_xi);
-      const Eigen::Matrix<double, 3, 6> B = -kPullShare * at.e * (o.kd * g.rate_u);
+      const Eigen::Matrix<double, 3, 6> A = -kPullShare * at.e * (gains.kp * g.angle_xi + gains.kd * g.rate_xi);
+      const Eigen::Matrix<double, 3, 6> B = -kPullShare * at.e * (gains.kd * g.rate_u);
       add_force_jacobian(o.to, now, Vector3::Zero(), g.body, A, B, false, out);
       add_force_jacobian(o.from, now, Vector3::Zero(), g.body, -A, -B, false, out);
     }
@@ -248,6 +249,7 @@ std::vector<SwingMode> swing_modes(const Specification& specification, const Swi
     const SystemState at_free = walk_free.go_to(pose, static_cast<int>(p));
     const SystemState at_lines = walk_lines.go_to(pose, static_cast<int>(p));
     if (operation.phases[p].stage != PhaseSpec::Stage::hanging) continue;
+    if (options.phase >= 0 && static_cast<int>(p) != options.phase) continue;
     const auto& elements = lines.system().elements;
     const bool connected = std::any_of(elements.begin(), elements.end(), [&](const auto& e) {
       const auto* line = dynamic_cast<const Tagline*>(e.get());

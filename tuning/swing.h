@@ -31,6 +31,7 @@ struct SwingOptions {
   double amplitude = 0.0175;  // rad, of the decay's first swing
   int swings = 3;             // that the decrement is taken over
   bool simulate = true;       // false: linear values alone
+  int phase = -1;             // the end of this phase alone; -1: all
 };
 
 /// Both swings of the operation's load at the end of every phase in which it hangs and the taglines are connected.

@@ -175,10 +175,18 @@ void add_verbs(CLI::App& app, Request& r) {
   CLI::App* tune = app.add_subcommand("tune", "Tune the tagline gains: gains, damping of the swing, report");
   add_case_options(*tune, r);
   add_run_options(*tune, r, "Seed of the search");
-  tune->add_option("--evaluations", r.tune.evaluations, "Budget of points")->type_name("N")->check(CLI::Range(1, 100000));
+  tune->add_option("--evaluations", r.tune.evaluations, "Budget of points")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
   tune->add_option("--map", r.tune.map, "Map the objective over the first two gains with N x N points (0 = none)")
       ->type_name("N")
       ->check(CLI::Range(0, 200));
+  tune->add_option("--phase", r.tune.phase, "This phase alone, begun at rest")->type_name("NAME");
+  tune->add_option("--pose", r.tune.pose, "At rest in the pose that this phase ends in")
+      ->type_name("NAME")
+      ->excludes("--phase");
+  tune->add_option("--hold", r.tune.hold, "How long in that pose, s")->type_name("S")->check(CLI::PositiveNumber);
+  tune->add_flag("--schedule", r.tune.schedule, "Then factors on the gains over the length of the falls");
   tune->callback([&r] { r.verb = [&r] { return run_tune(r.common, r.tune); }; });
 
   CLI::App* fit = app.add_subcommand("fit", "Estimate parameters of the case from measured runs, with intervals");

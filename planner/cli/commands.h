@@ -65,6 +65,9 @@ struct FitArguments {
 
 struct TuneArguments {
   std::optional<int> evaluations, map;
+  std::string phase, pose;  // empty: as the case says
+  std::optional<double> hold;
+  bool schedule = false;
 };
 
 int run_check(const CommonOptions& options);

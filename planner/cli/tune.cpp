@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -19,9 +20,14 @@ int run_tune(const CommonOptions& options, const TuneArguments& arguments) {
   if (options.seed) more.push_back({"plan.seed", std::to_string(*options.seed)});
   if (arguments.evaluations) more.push_back({"tune.evaluations", std::to_string(*arguments.evaluations)});
   if (arguments.map) more.push_back({"tune.map", std::to_string(*arguments.map)});
+  if (!arguments.phase.empty()) more.push_back({"tune.phase", "\"" + arguments.phase + "\""});
+  if (!arguments.pose.empty()) more.push_back({"tune.pose", "\"" + arguments.pose + "\""});
+  if (arguments.hold) more.push_back({"tune.hold_s", fmt::format("{}", *arguments.hold)});
+  if (arguments.schedule) more.push_back({"tune.schedule", "true"});
   const Case c = load_case(options, more);
   const std::string statement = statement_of(options.input);
-  const Evaluator evaluator(tuning_case(c), &stop);
+  std::vector<std::string> left_out;
+  const Evaluator evaluator(tuning_case(c, &left_out), &stop);
   const RunFolder folder(folder_path(options, c, "tune"),
                          options.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh);
   write_or_refuse([&] { write_file(folder.case_file(), case_text(c, statement)); });
@@ -35,18 +41,22 @@ int run_tune(const CommonOptions& options, const TuneArguments& arguments) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   const Summary summary = tuning_summary(evaluator, result, wall.count());
   const bool interrupted = summary.status == RunStatus::interrupted;
-  if (result.improved)
-    write_or_refuse([&] { write_file(folder.tuned(), case_text(evaluator.case_at(result.gains), statement)); });
+  const bool scheduled = result.schedule && result.schedule->worth_it;
+  const Case tuned = scheduled ? *result.schedule->scheduled : evaluator.case_at(result.gains);
+  if (result.improved || scheduled) write_or_refuse([&] { write_file(folder.tuned(), case_text(tuned, statement)); });
   if (!interrupted) write_or_refuse([&] { write_file(folder.report(), tuning_report(evaluator, result)); });
   write_or_refuse([&] { write_summary(summary, folder.summary()); });
   for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
   if (options.json) {
     fmt::print("{}\n", summary_json(summary));
   } else {
+    if (const std::string scope = tuning_scope(evaluator); !scope.empty()) fmt::print("{}\n", scope);
+    if (!left_out.empty()) fmt::print("Without what this part has not: {}\n", fmt::join(left_out, ", "));
     fmt::print("{}\n\n{}", tuning_verdict(result), table_text(gain_table(evaluator, result)));
-    for (const ReportTable& table : {swing_table(result), winch_table(result)})
+    if (result.schedule) fmt::print("\n{}\n", schedule_verdict(result));
+    for (const ReportTable& table : {schedule_table(result), swing_table(result), winch_table(result)})
       if (!table.rows.empty()) fmt::print("\n{}", table_text(table));
-    if (result.improved) fmt::print("\nTuned case: {}\n", folder.tuned());
+    if (result.improved || scheduled) fmt::print("\nTuned case: {}\n", folder.tuned());
     if (!interrupted) fmt::print("Report: {}\n", folder.report());
   }
   if (interrupted) {

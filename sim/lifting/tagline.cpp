@@ -42,6 +42,12 @@ Tagline::Tagline(TaglineOptions options, const Instant& initial)
   const auto not_negative = [](double v) { return std::isfinite(v) && v >= 0.0; };
   require(not_negative(o.kp), "kp", "must be >= 0 N/rad");
   require(not_negative(o.kd), "kd", "must be >= 0 N s/rad");
+  for (std::size_t i = 0; i < o.schedule.size(); ++i) {
+    const GainPoint& g = o.schedule[i];
+    require(positive(g.fall), "gain_schedule", "every fall must be > 0 m");
+    require(i == 0 || g.fall > o.schedule[i - 1].fall, "gain_schedule", "falls must be in rising order");
+    require(not_negative(g.kp_factor) && not_negative(g.kd_factor), "gain_schedule", "factors must be >= 0");
+  }
   require(std::isfinite(o.set_point), "set_point", "must be finite");
   require(not_negative(o.pretension), "pretension", "must be >= 0 N");
   require(positive(o.tension_max), "tension_max", "must be > 0 N");
@@ -67,25 +73,58 @@ bool Tagline::same_as(const ForceElement& other) const {
   return line && line->options_ == options_ && line->k_ == k_ && line->angle_.n_H == angle_.n_H;
 }
 
-Tagline::Command Tagline::command(const PlaneAngle::Value& angle) const {
+Tagline::Gains Tagline::gains(const Instant& now) const {
   const TaglineOptions& o = options_;
+  if (o.schedule.empty()) return {.kp = o.kp, .kd = o.kd};
+  const double fall = line_motion(o.hoist_lower, o.hoist_upper, now).length;
+  const auto above =
+      std::find_if(o.schedule.begin(), o.schedule.end(), [&](const GainPoint& g) { return g.fall > fall; });
+  if (above == o.schedule.begin() || above == o.schedule.end()) {
+    const GainPoint& end = above == o.schedule.end() ? o.schedule.back() : o.schedule.front();
+    return {.kp = o.kp * end.kp_factor, .kd = o.kd * end.kd_factor};
+  }
+  const GainPoint &low = *(above - 1), &high = *above;
+  const double width = high.fall - low.fall, x = (fall - low.fall) / width;
+  const double kp_rise = o.kp * (high.kp_factor - low.kp_factor), kd_rise = o.kd * (high.kd_factor - low.kd_factor);
+  return {o.kp * low.kp_factor + x * kp_rise, o.kd * low.kd_factor + x * kd_rise, kp_rise / width, kd_rise / width};
+}
+
+std::array<std::pair<int, Eigen::Matrix<double, 1, 6>>, 2> Tagline::fall_gradient(const Instant& now) const {
+  const BodyPoint &lower = options_.hoist_lower, &upper = options_.hoist_upper;
+  const LineMotion fall = line_motion(lower, upper, now);
+  std::array<std::pair<int, Eigen::Matrix<double, 1, 6>>, 2> g;
+  g[0] = {lower.body, Eigen::Matrix<double, 1, 6>::Zero()};
+  g[1] = {upper.body, Eigen::Matrix<double, 1, 6>::Zero()};
+  if (lower.body != kWorld) g[0].second = fall.e.transpose() * position_jacobian(lower, now);
+  if (upper.body != kWorld) g[1].second = -fall.e.transpose() * position_jacobian(upper, now);
+  return g;
+}
+
+Tagline::Command Tagline::command(const Instant& now) const {
+  const TaglineOptions& o = options_;
+  const PlaneAngle::Value angle = angle_.value(now);
   Command c{.value = o.pretension};
   if (angle.rate > 0.0) {
+    const Gains k = gains(now);
     const double e = std::max(0.0, angle.angle - o.set_point);
     const double x = std::min(1.0, angle.rate / kSwitchRate), sets_in = x * x * (3.0 - 2.0 * x);
-    c.value += sets_in * o.kp * e + o.kd * angle.rate;
-    c.by_angle = e > 0.0 ? sets_in * o.kp : 0.0;
-    c.by_rate = o.kd + 6.0 * x * (1.0 - x) / kSwitchRate * o.kp * e;
+    c.value += sets_in * k.kp * e + k.kd * angle.rate;
+    c.by_angle = e > 0.0 ? sets_in * k.kp : 0.0;
+    c.by_rate = k.kd + 6.0 * x * (1.0 - x) / kSwitchRate * k.kp * e;
+    c.by_fall = sets_in * k.kp_by_fall * e + k.kd_by_fall * angle.rate;
   }
   if (c.value > o.tension_max) return {.value = o.tension_max, .limited = true};
   return c;
 }
 
-Tagline::Command Tagline::steady_command(const PlaneAngle::Value& angle) const {
+Tagline::Command Tagline::steady_command(const Instant& now) const {
   const TaglineOptions& o = options_;
-  const double e = angle.angle - o.set_point;
+  const double e = angle_.value(now).angle - o.set_point;
   Command c{.value = o.pretension};
-  if (e > 0.0) c = {.value = o.pretension + o.kp * e, .by_angle = o.kp};
+  if (e > 0.0) {
+    const Gains k = gains(now);
+    c = {.value = o.pretension + k.kp * e, .by_angle = k.kp, .by_fall = k.kp_by_fall * e};
+  }
   if (c.value > o.tension_max) return {.value = o.tension_max, .limited = true};
   return c;
 }
@@ -125,7 +164,7 @@ double Tagline::held_tension(const Instant& now, Memory m) const {
 
 void Tagline::start(const Instant& now, Memory m) const {
   const double length = line_motion(options_.to, options_.from, now).length;
-  const Command c = active(now) ? steady_command(angle_.value(now)) : Command{};
+  const Command c = active(now) ? steady_command(now) : Command{};
   m.state[kPaidOut] = length - c.value / k_;
   m.state[kLineSpeed] = 0.0;
   m.state[kSlipSpeed] = 0.0;
@@ -134,32 +173,35 @@ void Tagline::start(const Instant& now, Memory m) const {
 
 void Tagline::begin_step(const Instant& before, double, Memory m) const {
   if (!active(before)) return;
-  const PlaneAngle::Value angle = angle_.value(before);
   m.scratch[kLength] = line_motion(options_.to, options_.from, before).length;
-  m.scratch[kCommand] = command(angle).value;
+  m.scratch[kCommand] = command(before).value;
 }
 
 void Tagline::add_forces(const Instant& now, double h, Memory m, ForceSum& out) const {
   if (!active(now)) return;
   const LineMotion line = line_motion(options_.to, options_.from, now);
-  const PlaneAngle::Value angle = angle_.value(now);
   const double tension =
-      h > 0.0 ? std::max(0.0, pull(line.length, command(angle).value, h, m).tension) : steady_command(angle).value;
+      h > 0.0 ? std::max(0.0, pull(line.length, command(now).value, h, m).tension) : steady_command(now).value;
   add_line_forces(options_.to, options_.from, now, line, tension, out);
 }
 
 void Tagline::add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const {
   if (!active(now)) return;
   const LineMotion line = line_motion(options_.to, options_.from, now);
-  const PlaneAngle::Value angle = angle_.value(now);
-  Command c = steady_command(angle);
+  Command c = steady_command(now);
   Pull p{.tension = c.value, .by_command = 1.0};
   if (h > 0.0) {
-    c = command(angle);
+    c = command(now);
     p = pull(line.length, c.value, h, m);
     if (p.tension < 0.0) return;
   }
   add_line_jacobian(options_.to, options_.from, now, line, p.tension, p.by_length, 0.0, out);
+  if (const double by_fall = p.by_command * c.by_fall; by_fall != 0.0)
+    for (const auto& [body, gradient] : fall_gradient(now)) {
+      const Eigen::Matrix<double, 3, 6> A = -line.e * (by_fall * gradient), none = Eigen::Matrix<double, 3, 6>::Zero();
+      add_force_jacobian(options_.to, now, Vector3::Zero(), body, A, none, false, out);
+      add_force_jacobian(options_.from, now, Vector3::Zero(), body, -A, none, false, out);
+    }
   const double by_angle = p.by_command * c.by_angle, by_rate = p.by_command * c.by_rate;
   if (by_angle == 0.0 && by_rate == 0.0) return;
   for (const PlaneAngle::Gradient& g : angle_.gradient(now)) {
@@ -179,7 +221,7 @@ void Tagline::end_step(const Instant& now, double h, Memory m) const {
   }
   if (h <= 0.0) return;
   const double length = line_motion(options_.to, options_.from, now).length;
-  const Command c = command(angle_.value(now));
+  const Command c = command(now);
   const Pull p = pull(length, c.value, h, m);
   m.state[kPaidOut] = p.paid_out;
   m.state[kLineSpeed] = p.line_speed;
@@ -197,6 +239,9 @@ void Tagline::add_changes(const Instant& at, const Command& c, const BodyChange&
   };
   add_length(options_.to, 1.0);
   add_length(options_.from, -1.0);
+  if (c.by_fall != 0.0)
+    for (const auto& [body, gradient] : fall_gradient(at))
+      if (body != kWorld) command_change.noalias() += (c.by_fall * gradient) * bodies.xi.middleRows<6>(6 * body);
   if (c.by_angle == 0.0 && c.by_rate == 0.0) return;
   for (const PlaneAngle::Gradient& g : angle_.gradient(at)) {
     if (g.body == kWorld) continue;
@@ -209,10 +254,10 @@ bool Tagline::add_history_tangent(const Instant& before, const Instant& now, dou
                                   const Eigen::Ref<const MatrixX>& state, Eigen::Ref<MatrixX> dQ) const {
   if (!active(now) || h <= 0.0) return true;
   const LineMotion line = line_motion(options_.to, options_.from, now);
-  const Pull p = pull(line.length, command(angle_.value(now)).value, h, m);
+  const Pull p = pull(line.length, command(now).value, h, m);
   if (p.tension < 0.0) return true;
   Eigen::RowVectorXd length = Eigen::RowVectorXd::Zero(dQ.cols()), command_change = length;
-  add_changes(before, command(angle_.value(before)), from, length, command_change);
+  add_changes(before, command(before), from, length, command_change);
   const Eigen::RowVectorXd tension =
       p.by_length_before * length + p.by_paid_before * state.row(kPaidOut) + p.by_command_before * command_change;
   ForceSum unit(static_cast<int>(now.body.size()));
@@ -225,7 +270,7 @@ bool Tagline::advance_state_tangent(const Instant& before, const Instant& now, d
                                     const BodyChange& from, const BodyChange& to, Eigen::Ref<MatrixX> state) const {
   const LineMotion line = line_motion(options_.to, options_.from, now);
   Eigen::RowVectorXd length = Eigen::RowVectorXd::Zero(state.cols()), command_change = length;
-  const Command c = active(now) ? command(angle_.value(now)) : Command{};
+  const Command c = active(now) ? command(now) : Command{};
   add_changes(now, c, to, length, command_change);
   const Eigen::RowVectorXd paid_before = state.row(kPaidOut);
   state.setZero();
@@ -240,7 +285,7 @@ bool Tagline::advance_state_tangent(const Instant& before, const Instant& now, d
   }
   // Elsewhere the line paid out is what the tension leaves of its length.
   Eigen::RowVectorXd length_before = Eigen::RowVectorXd::Zero(state.cols()), command_before = length_before;
-  add_changes(before, command(angle_.value(before)), from, length_before, command_before);
+  add_changes(before, command(before), from, length_before, command_before);
   const Eigen::RowVectorXd tension = p.by_length * length + p.by_command * command_change +
                                      p.by_length_before * length_before + p.by_paid_before * paid_before +
                                      p.by_command_before * command_before;
@@ -270,7 +315,7 @@ std::vector<Channel> Tagline::channels() const {
 void Tagline::measure(const Instant& now, Memory m, std::span<double> out) const {
   const PlaneAngle::Value angle = angle_.value(now);
   out[0] = held_tension(now, m);
-  out[1] = active(now) ? command(angle).value : 0.0;
+  out[1] = active(now) ? command(now).value : 0.0;
   out[2] = active(now) ? m.state[kLineSpeed] : 0.0;
   out[3] = m.state[kSaturated];
   out[4] = angle.angle;

@@ -16,6 +16,9 @@
 // sign flips when the load passes over the winch, and its derivative has no bound. With the direction kept, theta
 // stays the smooth "fore-aft" (or athwart) angle that the operator sees, and turns with the vessel.
 //
+// Gain schedule. Kp = kp f_p(L), Kd = kd f_d(L), L the distance of the hoist wire's ends, f given at some lengths,
+// linear between them and constant outside.
+//
 // The winch. Line: elastic and unilateral, T = max(0, k (l - Lw)), k = EA/(length at the initial pose), l its length,
 // Lw the length paid out. The winch runs at
 //   dLw/dt = clip( ldot + (T_lin - T_command)/(k tau), -+ speed_max ),    T_lin = k (l - Lw),
@@ -27,9 +30,9 @@
 //   T1 = ((1 - a) T0 + a (c0 + c1))/(1 + a),   a = h/(2 tau),   c = T_command,
 // the line paid out for it dLw = l1 - l0 - (T1 - T0)/k; if |dLw| > h speed_max it is cut to that and T1 = k (l1 - Lw1).
 // All in closed form, so the state leaves Newton's method. At thetadot = 0 the law of Eq. 12 jumps by Kp e: a step that
-// ends on the jump would have no solution, and a run would not depend smoothly on anything that moves the instant of the
-// jump. So the Kp term sets in over a small rate, s(thetadot/rate0) Kp e with s(x) = x^2 (3 - 2 x), rate0 = 2e-4 rad/s
-// (a hundredth of a degree a second; swings have a hundred times that). In statics (h = 0) T is the steady value,
+// ends on the jump would have no solution, and a run would not depend smoothly on anything that moves the instant of
+// the jump. So the Kp term sets in over a small rate, s(thetadot/rate0) Kp e with s(x) = x^2 (3 - 2 x), rate0 = 2e-4
+// rad/s (a hundredth of a degree a second; swings have a hundred times that). In statics (h = 0) T is the steady value,
 // min(pretension + Kp max(0, e), tension_max).
 //
 // Energy: 1/2 T^2/k in the line; heat T x slip speed in the brake; the winch gives -T x (rest of the line speed).
@@ -39,12 +42,21 @@
 
 namespace stillhook {
 
+/// Factors on the gains at one length of the hoist wire.
+struct GainPoint {
+  double fall = 0.0;                        // m, > 0
+  double kp_factor = 1.0, kd_factor = 1.0;  // >= 0
+
+  bool operator==(const GainPoint&) const = default;
+};
+
 struct TaglineOptions {
   std::string name;
   BodyPoint from, to;                  // winch, load
   BodyPoint hoist_upper, hoist_lower;  // ends of the hoist wire whose angle is controlled
   double kp = 0.0;                     // N/rad, >= 0
   double kd = 0.0;                     // N s/rad, >= 0
+  std::vector<GainPoint> schedule;     // by rising fall; empty = factors 1
   double set_point = 0.0;              // rad
   double pretension = 0.0;             // N, >= 0
   double tension_max = 0.0;            // N, > 0
@@ -75,6 +87,12 @@ class Tagline final : public ForceElement {
   const TaglineOptions& options() const { return options_; }
   double line_stiffness() const { return k_; }  // N/m
   const PlaneAngle& angle() const { return angle_; }
+  /// Kp and Kd, and their change per metre of the hoist wire.
+  struct Gains {
+    double kp = 0.0, kd = 0.0;  // N/rad, N s/rad
+    double kp_by_fall = 0.0, kd_by_fall = 0.0;
+  };
+  Gains gains(const Instant& now) const;
 
   bool same_as(const ForceElement& other) const override;
   int state_size() const override { return kStates; }
@@ -100,7 +118,7 @@ class Tagline final : public ForceElement {
   enum { kLength, kCommand, kScratch };
 
   struct Command {
-    double value = 0.0, by_angle = 0.0, by_rate = 0.0;  // N, N/rad, N s/rad
+    double value = 0.0, by_angle = 0.0, by_rate = 0.0, by_fall = 0.0;  // N, N/rad, N s/rad, N/m
     bool limited = false;
   };
   struct Pull {
@@ -112,11 +130,13 @@ class Tagline final : public ForceElement {
     bool held = false;  // the winch is at its speed limit: the line paid out does not follow the tension
   };
   bool active(const Instant& now) const { return options_.active && now.phase >= options_.active_from_phase; }
-  Command command(const PlaneAngle::Value& angle) const;
+  Command command(const Instant& now) const;
+  /// How the length of the hoist wire changes with the bodies of its lower and upper end.
+  std::array<std::pair<int, Eigen::Matrix<double, 1, 6>>, 2> fall_gradient(const Instant& now) const;
   /// Change of the line's length and of the command, a column each direction; `c` belongs to the instant.
   void add_changes(const Instant& at, const Command& c, const BodyChange& bodies, Eigen::RowVectorXd& length,
                    Eigen::RowVectorXd& command) const;
-  Command steady_command(const PlaneAngle::Value& angle) const;
+  Command steady_command(const Instant& now) const;
   Pull pull(double length, double command, double h, Memory m) const;
   double held_tension(const Instant& now, Memory m) const;
 

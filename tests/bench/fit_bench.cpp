@@ -3,8 +3,9 @@
 //   build/stillhook_fit_bench [seconds a record [parameters]]
 //
 // A "true" lift with other numbers than the case gives three noisy records of 600 s: the crane let go beside its place
-// in calm water with slack falls, and the lift itself, from the barge into the hoisting, in both waves of the paper.
-// Eight of the case's numbers are fitted to them from start values that are wrong by a fifth to a half.
+// in calm water with slack falls; the lift itself, from the barge into the hoisting, in the paper's benign wave; and
+// the crane waiting with slack falls in its higher wave, in which a lift-off is a row of hits that nothing can be
+// fitted to. Eight of the case's numbers are fitted to them from start values that are wrong by 5 to 30 %.
 #include <fmt/core.h>
 #include <omp.h>
 
@@ -26,13 +27,13 @@ struct Unknown {
 };
 constexpr Unknown kUnknowns[] = {
     {"bodies.crane.hydrodynamics.critical_fraction_roll", 0.055, 0.04, 0.0, 0.2},
-    {"bodies.crane.hydrodynamics.added_mass_factor", 1.1, 0.9, 0.5, 2.0},
+    {"bodies.crane.hydrodynamics.added_mass_factor", 1.1, 1.0, 0.5, 2.0},
     {"bodies.crane.hydrodynamics.radiation_factor", 0.85, 1.0, 0.3, 2.0},
-    {"moorings.crane_bow_port.pretension_kN", 180.0, 150.0, 50.0, 400.0},
-    {"moorings.barge_bow_port.stiffness_kN_per_m", 40.0, 30.0, 10.0, 100.0},
-    {"sea.states.paper_text.amplitude_m", 0.8, 1.0, 0.2, 2.0},
-    {"bodies.barge.hydrodynamics.added_mass_factor", 0.9, 1.1, 0.5, 2.0},
-    {"wires.luffing_port.axial_stiffness_kN", 2.2e6, 2.83e6, 1.0e6, 5.0e6},
+    {"moorings.crane_bow_port.pretension_kN", 170.0, 150.0, 50.0, 400.0},
+    {"moorings.barge_bow_port.stiffness_kN_per_m", 35.0, 30.0, 10.0, 100.0},
+    {"sea.states.paper_text.amplitude_m", 0.9, 1.0, 0.2, 2.0},
+    {"bodies.barge.hydrodynamics.added_mass_factor", 0.95, 1.0, 0.5, 2.0},
+    {"wires.luffing_port.axial_stiffness_kN", 2.5e6, 2.83e6, 1.0e6, 5.0e6},
 };
 
 struct Sensor {
@@ -58,16 +59,15 @@ double clock_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+const double kBegin = clock_seconds();
+
 std::vector<Trial> trials() {
-  return {{"release",
-           "decay",
-           "calm",
-           "free_body = \"crane\"\nfree = \"x, y, vx, vy\"",
-           {{"wires.hoist_port.slack_m", "2.0"},
-            {"wires.hoist_starboard.slack_m", "2.0"},
-            {"operation.phases.settle.duration_s", "900.0"}}},
-          {"table1", "regular", "paper_table1", "", {}},
-          {"text", "regular", "paper_text", "", {}}};
+  const std::vector<Override> waiting = {{"wires.hoist_port.slack_m", "8.0"},
+                                         {"wires.hoist_starboard.slack_m", "8.0"},
+                                         {"operation.phases.settle.duration_s", "900.0"}};
+  return {{"release", "decay", "calm", "free_body = \"crane\"\nfree = \"x, y, vx, vy\"", waiting},
+          {"lift", "regular", "paper_table1", "", {}},
+          {"waiting", "regular", "paper_text", "", waiting}};
 }
 
 /// A run of the true lift, as sensors would have shown it. The release begins 1 m off in surge and sway.
@@ -86,7 +86,7 @@ std::string measured(const std::string& file, const Trial& trial, double duratio
       if (moves[i]) from.body[i].p_WC += Vector3(1.0, 1.0, 0.0);
     options.from = &from;
   }
-  const Trajectory run = simulate(model, build_operation(model), options);
+  const Trajectory run = simulate(model, build_operation(model, options.until), options);
   if (run.status != RunStatus::completed) throw std::runtime_error(run.message);
   Noise noise(seed);
   std::string text = "t_s";
@@ -113,8 +113,8 @@ std::string fit_section(const std::vector<Trial>& records, const TemporaryFolder
     for (const Override& s : t.settings)
       text += fmt::format("[[fit.records.settings]]\nkey = \"{}\"\nvalue = '{}'\n", s.key, s.value);
     for (const Sensor& s : kSensors)
-      text += fmt::format("[[fit.records.columns]]\nchannel = \"{0}\"\ncolumn = \"{0}\"\nunit = \"{1}\"\n", s.channel,
-                          s.unit);
+      text += fmt::format("[[fit.records.columns]]\nchannel = \"{0}\"\ncolumn = \"{0}\"\nunit = \"{1}\"\nnoise = {2}\n",
+                          s.channel, s.unit, s.noise);
   }
   return text;
 }
@@ -137,8 +137,13 @@ int main(int argc, char** argv) {
     for (const bool cross : {false, true}) {
       Case asked = with_fit;
       asked.fit.cross_validate = cross;
+      IdentificationOptions watch;
+      watch.progress = [](const std::string& stage, int iteration, double cost) {
+        fmt::print(stderr, "{:.1f} s: {}, iteration {}, cost {:.6g}\n", clock_seconds() - kBegin, stage, iteration,
+                   cost);
+      };
       const double wall = clock_seconds(), processor = processor_seconds();
-      const Identification result = identify(asked);
+      const Identification result = identify(asked, watch);
       fmt::print(
           "\n{} records of {:.0f} s, {} unknowns, {} processors{}: {:.1f} s by the clock, {:.1f} s of processor, "
           "{} simulations, {} iterations; {}\n",
@@ -150,6 +155,10 @@ int main(int argc, char** argv) {
         fmt::print("  {:<56} truth {:>9.5g}  start {:>9.5g}  estimate {:>9.5g}  {:.5g} to {:.5g}\n", e.spec.key,
                    kUnknowns[i].truth, e.start, e.value, e.low, e.high);
       }
+      for (const RecordFit& record : result.records)
+        for (const ChannelFit& channel : record.channels)
+          fmt::print("    {:<10}{:<24} residual over noise {:7.2f} before, {:6.3f} after\n", record.name,
+                     channel.channel, channel.rms_before / channel.sigma, channel.rms_after / channel.sigma);
       for (const std::string& warning : result.warnings) fmt::print("  {}\n", warning);
       std::fflush(stdout);
     }

@@ -3,6 +3,7 @@
 
 #include "problems/case.h"
 #include "sim/operation.h"
+#include "sim/simulate.h"
 
 namespace stillhook {
 namespace {
@@ -93,6 +94,42 @@ TEST_CASE("Phases that cannot begin before the end of a run are left out", "[nei
           cut.static_poses.resize(3);
           return cut;
         }()) == 0.0);
+}
+
+TEST_CASE("A part of an operation begins at rest where the part before it ends", "[neighbour][part]") {
+  const Case c = read_case(std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml",
+                           {{"sea.active", "calm"}});
+  const Model model = build_model(c.specification);
+  const Operation whole = build_operation(model);
+  const Trajectory all = simulate(model, whole);
+  const auto run_of = [&](const OperationPart& part) {
+    const SystemState start = start_of(whole, part);
+    RunOptions options;
+    options.from = &start;
+    return simulate(model, part_of(whole, part), options);
+  };
+  const auto series = [](const Trajectory& run, const char* channel) {
+    return run.values[static_cast<std::size_t>(run.find(channel))];
+  };
+  // In calm water the lift is still at rest when the hoisting begins: both runs show the same from there.
+  const Trajectory hoisting = run_of({1, 0.0});
+  REQUIRE(hoisting.status == RunStatus::completed);
+  REQUIRE(hoisting.phases.size() == 2);
+  CHECK(hoisting.time.back() == Approx(whole.phases[1].duration).margin(0.2));
+  const auto first = static_cast<std::size_t>(std::lround(all.phases[1].start / 0.2));
+  for (const char* channel : {"load.z", "load.x", "fall.tension"}) {
+    const std::vector<double> a = series(all, channel), b = series(hoisting, channel);
+    for (std::size_t i = 0; i < b.size() && first + i < a.size(); ++i) {
+      CAPTURE(channel, i);
+      CHECK(b[i] == Approx(a[first + i]).epsilon(1e-6));  // Newton's tolerance
+    }
+  }
+  // Held at its end, nothing moves.
+  const Trajectory held = run_of({1, 20.0});
+  REQUIRE(held.status == RunStatus::completed);
+  CHECK(held.time.back() == Approx(20.0));
+  const double z = held.static_poses[2].bodies[1].p.z();
+  for (const double v : series(held, "load.z")) CHECK(v == Approx(z).margin(1e-6));
 }
 
 }  // namespace

@@ -117,6 +117,15 @@ TEST_CASE("Derivatives of a run by every kind of key", "[tangent]") {
   check_key(c, key, step);
 }
 
+TEST_CASE("Derivatives by the factors of a gain schedule", "[tangent]") {
+  // The falls shorten from 18 to 14 m in the run: through both points and the stretch between them.
+  const Case c = small_lift({{"taglines.tagline.gain_schedule",
+                              "[{ name = \"short\", fall_m = 15.0, kp_factor = 0.7, kd_factor = 1.4 }, { name = "
+                              "\"long\", fall_m = 17.0 }]"}});
+  check_key(c, "taglines.tagline.gain_schedule.short.kp_factor", 1e-3);
+  check_key(c, "taglines.tagline.gain_schedule.long.kd_factor", 1e-3);
+}
+
 TEST_CASE("Derivatives by the initial state", "[tangent]") {
   const Case c = small_lift({{"taglines.tagline.active", "false"},
                              {"operation.phases.settle.duration_s", "5.013"},
@@ -202,7 +211,12 @@ TEST_CASE("A phase that waits for a contact moves with the time of the parting",
 }
 
 TEST_CASE("Gradients of objective and limits agree with differences of their smooth values", "[tangent]") {
-  const Evaluator evaluator(small_lift());
+  // The whole operation; for the gains also the hoisting alone, and the pose that it ends in.
+  Case c = small_lift();
+  c.plan.part = GENERATE(OperationPart{}, OperationPart{1, 0.0}, OperationPart{1, 20.0});
+  if (!c.plan.part.whole())
+    std::erase_if(c.plan.variables, [](const VariableSpec& v) { return v.key.starts_with("operation."); });
+  const Evaluator evaluator(c);
   const Eigen::VectorXd x = evaluator.baseline();
   const Evaluation e = evaluator.evaluate_smooth(x, {}, true);
   REQUIRE(e.usable);

@@ -58,7 +58,7 @@ Scene accepted(std::mt19937& random, int bodies, int drives, const std::function
 // A tagline from body 0 to body 2, hoist wire from body 1 to body 2. `side` of the set point the angle lies on (rad),
 // sign of its rate, and the speed limit decide the regime.
 ElementCase tagline_case_of(const std::string& name, double side, double rate_sign, double h, double speed_max,
-                            double tension_max = 1e7) {
+                            double tension_max = 1e7, bool scheduled = false) {
   const BodyPoint upper = kOnSecond, lower = kOnThird, from = kOnFirst, to{2, {-1.5, 0.6, -0.9}};
   const auto angle_at = [=](const Instant& now) {
     TaglineOptions o;
@@ -92,6 +92,10 @@ ElementCase tagline_case_of(const std::string& name, double side, double rate_si
     o.tension_max = tension_max;
     o.speed_max = speed_max;
     o.time_constant = 0.5;
+    if (scheduled) {
+      const double fall = (motion_of(upper, now).p - motion_of(lower, now).p).norm();
+      o.schedule = {{0.6 * fall, 0.5, 1.6}, {0.9 * fall, 0.8, 1.2}, {1.3 * fall, 1.4, 0.7}};
+    }
     return std::make_unique<Tagline>(o, now);
   };
   return c;
@@ -184,6 +188,9 @@ TEST_CASE("taglines pass the suite of force elements") {
   suite::check_force_element(tagline_case_of("case A", 0.1, 1.0, 0.05, 0.0));
   suite::check_force_element(tagline_case_of("case B", -0.1, 1.0, 0.05, 0.0));
   suite::check_force_element(tagline_case_of("case C", 0.1, -1.0, 0.05, 0.0));
+  suite::check_force_element(tagline_case_of("statics, gains by fall", 0.1, 1.0, 0.0, 0.0, 1e7, true));
+  suite::check_force_element(tagline_case_of("case A, gains by fall", 0.1, 1.0, 0.05, 0.0, 1e7, true));
+  suite::check_force_element(tagline_case_of("case B, gains by fall", -0.1, 1.0, 0.05, 0.0, 1e7, true));
   suite::check_force_element(tagline_case_of("tension limit", 0.1, 1.0, 0.05, 0.0, 25e3));
   suite::check_force_element(tagline_case_of("slipping brake", 0.1, 1.0, 0.05, 1e-4, 21e3));
   suite::check_force_element(tagline_case_of("speed limit", 0.1, 1.0, 0.05, 1e-4, 1e12));

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 
 #include "sim/specification.h"
@@ -95,6 +96,34 @@ TEST_CASE("the command follows the sign convention: away from the winch is posit
   CHECK(command(-out, rate) == Approx(20e3 + 6e6 * theta_rate).epsilon(1e-12));                 // B
   CHECK(command(out, -rate) == Approx(20e3).epsilon(1e-12));                                    // C
   CHECK(command(-out, -rate) == Approx(20e3).epsilon(1e-12));                                   // C
+}
+
+TEST_CASE("scheduled gains are linear in the fall's length between their points and constant outside") {
+  TaglineOptions o = line_options();
+  o.schedule = {{80.0, 0.5, 2.0}, {100.0, 1.5, 1.0}};
+  Line line(o);
+  const double out = 4.0, rate = 1.3;
+  // Raised by `up`, the load hangs on a fall that is so much shorter, or longer for a negative one.
+  const auto at = [&](double up) {
+    Scene s = hanging(out, rate);
+    s.body[1].p_WC.z() += up;
+    return s;
+  };
+  line.start(hanging(0.0, 0.0));
+  for (const auto& [up, kp_factor, kd_factor] :
+       std::vector<std::array<double, 3>>{{20.0, 0.5, 2.0}, {-25.0, 1.5, 1.0}}) {
+    const double plumb = kHoist - up, theta = std::atan2(out, plumb);
+    const double theta_rate = rate * plumb / (out * out + plumb * plumb);
+    CHECK(line.channel(at(up), kCommand) ==
+          Approx(20e3 + kp_factor * 1.2e6 * theta + kd_factor * 6e6 * theta_rate).epsilon(1e-12));
+  }
+  const double fall = std::hypot(out, kHoist), share = (fall - 80.0) / 20.0;
+  const Tagline::Gains gains = line.tagline.gains(at(0.0).instant());
+  CHECK(gains.kp == Approx(1.2e6 * (0.5 + share)).epsilon(1e-12));
+  CHECK(gains.kd == Approx(6e6 * (2.0 - share)).epsilon(1e-12));
+  CHECK(gains.kp_by_fall == Approx(1.2e6 / 20.0).epsilon(1e-12));
+  o.schedule = {{100.0, 0.5, 2.0}, {80.0, 1.5, 1.0}};
+  CHECK_THROWS_WITH(Line(o), Catch::Matchers::Contains("rising order"));
 }
 
 TEST_CASE("the force draws the load towards the winch") {
