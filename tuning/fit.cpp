@@ -120,7 +120,10 @@ class Watch final : public ceres::IterationCallback {
   explicit Watch(const FitOptions& options) : options_(options) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
     if (options_.progress) options_.progress({s.iteration, s.cost});
-    return options_.stop && options_.stop->load() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+    if (options_.stop && options_.stop->load()) return ceres::SOLVER_ABORT;
+    // A step that fails by less than the tolerance has met the noise of the simulation: shorter ones would, too.
+    const bool still = s.iteration > 0 && std::abs(s.cost_change) <= options_.tolerance * s.cost;
+    return still ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
@@ -173,6 +176,7 @@ ceres::Solver::Options solver_options(const FitProblem& problem, const FitOption
   o.minimizer_progress_to_stdout = false;
   o.logging_type = ceres::SILENT;
   o.max_num_consecutive_invalid_steps = 8;
+  o.max_num_line_search_step_size_iterations = 1;  // each a run of all records; shorter steps are the trust region's
   return o;
 }
 
@@ -215,7 +219,8 @@ FitOutcome solve_fit(FitProblem& problem, const FitOptions& options) {
   if (runner.first_error()) std::rethrow_exception(runner.first_error());
   FitOutcome outcome;
   outcome.usable = summary.IsSolutionUsable();
-  outcome.converged = summary.termination_type == ceres::CONVERGENCE;
+  outcome.converged = summary.termination_type == ceres::CONVERGENCE ||
+                      summary.termination_type == ceres::USER_SUCCESS;
   outcome.interrupted = options.stop && options.stop->load();
   outcome.message = runner.first_failure().empty() ? summary.message : runner.first_failure();
   outcome.cost = summary.final_cost;

@@ -239,6 +239,7 @@ class Identifier {
       FitProblem problem = whole_records();
       FitOptions options = fit_options(round == 0 ? "fit" : "fit, weights from residuals");
       options.robust *= loose;
+      if (loose > 1.0) options.tolerance *= 10.0;  // to be gone on from
       outcome = solve_fit(problem, options);
       count(problem, outcome);
       if (!outcome.usable || stopped()) return outcome;
