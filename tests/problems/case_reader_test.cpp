@@ -73,7 +73,7 @@ TEST_CASE("the reference lift arrives in SI", "[case]") {
   CHECK(named(s.poses, "even_keel_unloaded_b_backstays").holds[0].coordinate == exactly(5.18 * kPi / 180.0));
   REQUIRE(c.plan.scenarios[1].heading);
   CHECK(*c.plan.scenarios[1].heading == exactly(0.75 * kPi));
-  CHECK(c.plan.variables.size() == 10);
+  CHECK(c.plan.variables.size() == 11);
   CHECK(c.plan.variables[0].key == "operation.phases.load_transfer.moves.hoist.speed_m_per_min");  // order of the file
 }
 

@@ -89,7 +89,9 @@ void check_key(const Case& c, const std::string& key, double relative_step) {
     // the differences themselves are in doubt of: rounding of a run over the step, and kinks of the pull-only law that
     // fall between the two sides.
     CHECK(truth.doubt <= 3e-3 * size + 1e-12);
-    CHECK(error <= 1e-5 * size + 2.0 * truth.doubt + 1e-12 + (channels[k] == "fall.tension" ? rounding : 0.0));
+    // The tagline feels the fall's stiffness through the load's swing alone, 2e-5 N for a kN: 1e-9 N of rounding shows.
+    const double seen = key == "wires.fall.axial_stiffness_kN" && channels[k] == "tagline.tension" ? 1e-9 : 1e-12;
+    CHECK(error <= 1e-5 * size + 2.0 * truth.doubt + seen + (channels[k] == "fall.tension" ? rounding : 0.0));
     // The position of the load as a whole, where the differences are at their best.
     if (channels[k] == "load.z") CHECK(error <= 1e-6 * size + 2.0 * truth.doubt);
   }
