@@ -64,7 +64,8 @@ const double kBegin = clock_seconds();
 std::vector<Trial> trials() {
   const std::vector<Override> waiting = {{"wires.hoist_port.slack_m", "8.0"},
                                          {"wires.hoist_starboard.slack_m", "8.0"},
-                                         {"operation.phases.settle.duration_s", "900.0"}};
+                                         {"operation.phases.settle.duration_s", "900.0"},
+                                         {"plan.variables.\"operation.phases.settle.duration_s\".max", "900.0"}};
   return {{"release", "decay", "calm", "free_body = \"crane\"\nfree = \"x, y, vx, vy\"", waiting},
           {"lift", "regular", "paper_table1", "", {}},
           {"waiting", "regular", "paper_text", "", waiting}};
@@ -111,7 +112,7 @@ std::string fit_section(const std::vector<Trial>& records, const TemporaryFolder
         fmt::format("[[fit.records]]\nname = \"{0}\"\nkind = \"{1}\"\nsea = \"{2}\"\nfile = '{3}'\nend_s = {4}\n{5}\n",
                     t.name, t.kind, t.sea, folder / (std::string(t.name) + ".csv"), duration, t.more);
     for (const Override& s : t.settings)
-      text += fmt::format("[[fit.records.settings]]\nkey = \"{}\"\nvalue = '{}'\n", s.key, s.value);
+      text += fmt::format("[[fit.records.settings]]\nkey = '{}'\nvalue = '{}'\n", s.key, s.value);
     for (const Sensor& s : kSensors)
       text += fmt::format("[[fit.records.columns]]\nchannel = \"{0}\"\ncolumn = \"{0}\"\nunit = \"{1}\"\nnoise = {2}\n",
                           s.channel, s.unit, s.noise);
