@@ -75,6 +75,7 @@ class FrontSearch {
     if (!as_is.usable) return;
     const double limits = first_ > 0 ? std::max(0.0, as_is.constraints.head(first_).maxCoeff()) : 0.0;
     const std::lock_guard lock(mutex_);
+    if (std::any_of(known_.begin(), known_.end(), [&](const Known& k) { return k.x == x; })) return;  // passed before
     known_.push_back({x, {as_is.constraints[first_], as_is.constraints[second_]}, limits});
     front_.points.push_back(
         {x, largest(evaluator_, e, spec_.first), largest(evaluator_, e, spec_.second), limits <= 0.0, false, label});
