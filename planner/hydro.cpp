@@ -76,6 +76,14 @@ double measured_speed() {
   return 2.0 * n * n * n / least;
 }
 
+constexpr double kIterations = 60.0;  // of GMRES
+
+/// Columns that GMRES solves at a time: the modes of a symmetry class at every frequency of the part.
+double columns_of(const HydroSet& set, const PanelBand& band) {
+  const double modes = 6.0 * static_cast<double>(set.bodies.size());
+  return std::max(1.5, modes / band.classes) * static_cast<double>(band.frequencies.size());
+}
+
 }  // namespace
 
 std::string HydroSet::name() const {
@@ -161,26 +169,26 @@ void complete_sets(const Model& model, std::vector<HydroSet>& sets) {
   }
 }
 
-double largest_bytes(const std::vector<PanelBand>& bands) {
+double largest_bytes(const HydroSet& set) {
   double bytes = 0.0;
-  for (const PanelBand& band : bands) bytes = std::max(bytes, band.bytes);
+  for (const PanelBand& band : set.bands) {
+    const double F = band.surface_panels;
+    // N of a class once more in single precision, and the directions of GMRES of all its columns.
+    bytes = std::max(bytes, band.bytes + 4.0 * F * F + 16.0 * F * kIterations * columns_of(set, band));
+  }
   return bytes;
 }
 
 double estimated_seconds(const HydroSet& set) {
   // In units of a floating point operation of a matrix product, from runs of boxes and spheres of 500 to 4000 panels.
-  constexpr double kPair = 1500.0;      // influence of one panel on another with its image: logarithms and arc tangents
-  constexpr double kIterations = 60.0;  // of GMRES, with its two products of complex columns
-  constexpr double kColumns = 1.5;      // modes of a symmetry class
-  const double modes = 6.0 * static_cast<double>(set.bodies.size());
+  constexpr double kPair = 1500.0;  // influence of one panel on another with its image: logarithms and arc tangents
   double work = 0.0;
   for (const PanelBand& band : set.bands) {
     const double H = band.hull_panels, F = band.surface_panels, n = band.classes;
-    const double columns = std::max(kColumns, modes / n) * static_cast<double>(band.frequencies.size());
     // The images of a panel in the planes of symmetry serve all classes.
     work += n * kPair * (H + F) * (H + F);
     work += n * (8.0 / 3.0 * H * H * H + 2.0 * H * H * F + 2.0 * H * F * F);
-    work += n * kIterations * 4.0 * F * F * columns;
+    work += n * kIterations * 4.0 * F * F * columns_of(set, band);  // two products of complex columns
   }
   constexpr double kIdle = 1.6;  // threads wait for each other, and for memory
   return kIdle * work / (measured_speed() * omp_get_max_threads());

@@ -53,7 +53,7 @@ void compute_set(const Case& c, HydroSet& set, const HydroProgress& progress);
 void complete_sets(const Model& model, std::vector<HydroSet>& sets);
 
 /// Numbers of panels and bytes of the largest part of a band, which decides on the memory.
-double largest_bytes(const std::vector<PanelBand>& bands);
+double largest_bytes(const HydroSet& set);
 
 /// About how long a computation takes here, s of wall time: counts the work of assembly, factorisation and iterations,
 /// and measures the speed of a small matrix product. Good to a factor of two.

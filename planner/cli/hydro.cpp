@@ -31,8 +31,8 @@ void announce(const HydroSet& set, const std::string& what) {
       "{}: {} parts of the band {:.2f} to {:.2f} rad/s, up to {} panels on the hull and {} on the water, about {:.0f} "
       "MB "
       "and {} unless it is in the cache",
-      what, set.bands.size(), set.bands.front().from, set.bands.back().to, hull, surface,
-      largest_bytes(set.bands) / 1e6, duration_text(std::max(1.0, estimated_seconds(set))));
+      what, set.bands.size(), set.bands.front().from, set.bands.back().to, hull, surface, largest_bytes(set) / 1e6,
+      duration_text(std::max(1.0, estimated_seconds(set))));
 }
 
 class HydroRun {

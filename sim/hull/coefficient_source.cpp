@@ -23,6 +23,7 @@ namespace {
 
 // Changes whenever the same input would give other numbers.
 constexpr const char* kMethodVersion = "rankine 2";
+constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
 
 using Set = std::shared_ptr<const HydrodynamicCoefficients>;
 
@@ -51,7 +52,10 @@ class Hash {
 std::string key_of(const std::vector<PanelHull>& hulls, const PanelMethodOptions& o) {
   Hash hash;
   hash.add(std::string(kMethodVersion));
-  if (hulls.size() > 1) hash.add(o.gap_damping);
+  if (hulls.size() > 1) {
+    hash.add(std::string(kMethodOfSeveral));
+    hash.add(o.gap_damping);
+  }
   for (const double value : {o.density, o.gravity, o.lowest, o.highest, static_cast<double>(o.frequencies),
                              static_cast<double>(o.headings), o.refinement, o.panel_length})
     hash.add(value);

@@ -52,6 +52,7 @@ struct PanelBand {
   double from = 0.0, to = 0.0;            // rad/s
   std::vector<double> frequencies;        // rad/s
   double near = 0.0, far = 0.0, width = 0.0;  // m, cells and beach (rankine/free_surface.h)
+  double middle = 0.0, reach = 0.0;       // m, largest cell up to that distance; 0 = far everywhere
   double panel_length = 0.0;              // m, of the hulls
   int hull_panels = 0, surface_panels = 0, classes = 0;
   double bytes = 0.0;                     // estimate of the memory it takes

@@ -20,6 +20,10 @@ constexpr double kGrowth = 0.25;
 constexpr double kBeachWidth = 1.2;
 // Cells across the gap between two hulls.
 constexpr double kCellsInGap = 5.0;
+// Doublings of cells that may be wasted before they are made to meet the largest size.
+constexpr double kWasted = 0.4;
+// The beach has taken a wave when exp(-kFaded) of its amplitude is left.
+constexpr double kFaded = 2.3;
 
 double wave_length(double frequency, double gravity) { return kTwoPi * gravity / (frequency * frequency); }
 
@@ -62,8 +66,20 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
     band.panel_length = std::min(panel, shortest / kPanelsPerWave) / options.refinement;
     band.far = shortest / kCellsPerWave / options.refinement;
     band.near = std::min(shortest / kCellsAtHull, panel * kPanelsAcross / kCellsAcross) / options.refinement;
-    if (layout.gap > 0.0) band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
     band.width = kBeachWidth * longest;
+    if (layout.gap > 0.0) {
+      band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
+      // Cells double outwards: where that would stop far below the largest one allowed, the smallest are made to meet
+      // it.
+      const double doublings = std::log2(band.far / band.near), over = doublings - std::floor(doublings);
+      if (over > kWasted) band.near = band.far / std::exp2(std::ceil(doublings));
+      // Two hulls have large surfaces: where the beach has taken the part's shortest waves, cells double once more.
+      band.middle = band.far;
+      band.far *= 2.0;
+      // int nu/c ds = kFaded with the group velocity c = w/2k.
+      const double k = kTwoPi / shortest;
+      band.reach = std::cbrt(1.5 * kFaded * band.width * band.width / (Beach().strength * k));
+    }
     bands.push_back(band);
     first = last;
   }
@@ -79,7 +95,12 @@ int headings_for(const Layout& layout, const PanelMethodOptions& options) {
   return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));
 }
 
-FreeSurfaceGrid grid_of(const PanelBand& band) { return {band.near, band.far, kGrowth, band.width}; }
+FreeSurfaceGrid grid_of(const PanelBand& band) {
+  FreeSurfaceGrid grid{band.near, band.far, kGrowth, band.width};
+  grid.middle = band.middle;
+  grid.reach = band.reach;
+  return grid;
+}
 
 Beach beach_of(const PanelBand& band, const PanelMethodOptions& options) {
   Beach beach;

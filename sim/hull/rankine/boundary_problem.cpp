@@ -131,7 +131,8 @@ BoundarySizes sizes_of(const HullPanels& hulls, const SurfacePanels& surface) {
   sizes.surface = surface.size();
   sizes.classes = static_cast<int>(parities(hulls.symmetry).size());
   const double h = sizes.hull, f = sizes.surface;
-  sizes.bytes = 8.0 * sizes.classes * (f * f + 3.0 * f * h + 4.0 * h * h);
+  // N; C, R and the kernels they come from; responses and kernels of the hull.
+  sizes.bytes = 8.0 * sizes.classes * (f * f + 5.0 * f * h + 6.0 * h * h);
   return sizes;
 }
 
