@@ -94,10 +94,9 @@ double RunView::start() const {
 }
 
 double RunView::end() const {
-  double last = kNaN;
-  if (!run_.phases.empty()) last = run_.phases.back().end;
-  if (!run_.time.empty() && !(last >= run_.time.back())) last = run_.time.back();
-  return last;
+  // The last sample may lie a little beyond the end of the last phase.
+  if (!run_.phases.empty()) return run_.phases.back().end;
+  return run_.time.empty() ? kNaN : run_.time.back();
 }
 
 Peak RunView::maximum(const std::string& name, const std::vector<std::size_t>& phases) const {

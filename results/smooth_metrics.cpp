@@ -20,7 +20,9 @@ double window_integral(const RunView& view, std::size_t phase, const std::functi
   const PhaseRecord& record = view.run().phases[phase];
   double sum = 0.0;
   for (std::size_t i = 1; i < time.size(); ++i) {
-    const double a = std::max(time[i - 1], record.start), b = std::min(time[i], record.end);
+    // A run whose end is moved by a gradient may end a little after its last sample.
+    const double last = i + 1 == time.size() ? record.end : time[i];
+    const double a = std::max(time[i - 1], record.start), b = std::min(last, record.end);
     if (!(b > a)) continue;
     const double length = time[i] - time[i - 1], f0 = f(i - 1), f1 = f(i);
     const double sa = (a - time[i - 1]) / length, sb = (b - time[i - 1]) / length;

@@ -171,7 +171,12 @@ void Recorder::add(double t, double h, int phase, bool sample) {
     if (values[i] > e.max) e.max = values[i], e.t_max = t;
   }
   watch_contacts(t, h, phase);
-  if (!samples_ || !sample) return;
+  if (sample) keep(t);
+}
+
+void Recorder::keep(double t) {
+  if (!samples_) return;
+  const std::span<const double> values = board_.values();
   if (sink_) return sink_->add(out_, t, values);
   out_.time.push_back(t);
   for (std::size_t i = 0; i < values.size(); ++i) out_.values[i].push_back(values[i]);
@@ -217,7 +222,7 @@ void Recorder::close(double t) {
   if (!out_.phases.empty()) out_.phases.back().end = t;
   for (Watch& w : watches_) {
     if (!w.touching) continue;
-    w.event.end = t;
+    w.event.end = std::max(w.event.start, t);
     out_.contacts.push_back(w.event);
   }
   std::stable_sort(out_.contacts.begin(), out_.contacts.end(),

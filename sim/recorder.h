@@ -43,9 +43,11 @@ class Recorder {
   Recorder(const Model& model, const ChannelBoard& board, bool samples, Trajectory& out, SampleSink* sink = nullptr);
   /// Once per step, after board.measure(). `sample`: keep the values.
   void add(double t, double h, int phase, bool sample);
+  /// Keeps the values as a sample and does nothing else.
+  void keep(double t);
   /// Phase bookkeeping.
   void open_phase(const std::string& name, PhaseSpec::Stage stage, double t, bool timed_out);
-  void close(double t);
+  void close(double t);  // s, the end of the last phase: at or before the last step
   /// When the contact element parted for the last time, s: between two steps, by the gap on either side. The present
   /// while it touches, minus infinity if it never did.
   double parted_at(int contact_element) const;

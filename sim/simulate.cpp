@@ -49,7 +49,9 @@ class Run {
     double next_progress = begin + kProgressEvery;
     for (long k = 1;; ++k) {
       const double t = begin + k * h;
-      if (done(t - h)) break;
+      // After its operation a run goes on to the next sample, so that the last phase can end between two.
+      const bool sampled = !options_.record || (k - 1) % every == 0;
+      if (limit_reached(t - h) || (operation_over(t - h) && sampled)) break;
       if (!advance(t, h)) {
         out_.status = RunStatus::diverged;
         break;
@@ -66,7 +68,7 @@ class Run {
       }
     }
     if (out_.status == RunStatus::not_run) out_.status = RunStatus::completed;
-    recorder_.close(state_.t);
+    recorder_.close(operation_over(state_.t) ? clock_.phase_end() : state_.t);
     out_.residuals = stepper_.residuals();
     out_.factorisations = stepper_.factorisations();
   }
@@ -106,11 +108,12 @@ class Run {
     return options_.until > 0.0 ? options_.until : model_.specification().solver.max_duration;
   }
 
-  bool done(double t) const {
+  bool limit_reached(double t) const {
     const double limit = time_limit();
-    if (limit > 0.0 && t >= limit - 1e-9) return true;
-    return clock_.phase() >= 0 && clock_.finished(t);
+    return limit > 0.0 && t >= limit - 1e-9;
   }
+
+  bool operation_over(double t) const { return clock_.phase() >= 0 && clock_.finished(t); }
 
   double end_expected(double t) const {
     const double limit = time_limit();
@@ -120,7 +123,10 @@ class Run {
 
   void note(double h, bool sample) {
     board_.measure(state_, stepper_.workspace(), phase());
-    recorder_.add(state_.t, h, phase(), sample);
+    if (!operation_over(state_.t - h))
+      recorder_.add(state_.t, h, phase(), sample);
+    else if (sample)
+      recorder_.keep(state_.t);
     if (tangents_ && !tangents_->note(state_, h, recorder_, clock_, sample)) tangents_ = nullptr;
   }
 

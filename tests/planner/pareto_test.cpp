@@ -28,7 +28,7 @@ std::vector<std::string> front_of(const std::string& out, const std::string& gra
           "--set",
           "plan.pareto.first=duration",
           "--set",
-          "plan.pareto.second=sway_peak",
+          "plan.pareto.second=daf_total",
           "--set",
           "plan.pareto.points=4",
           "--set",
@@ -36,13 +36,13 @@ std::vector<std::string> front_of(const std::string& out, const std::string& gra
           "--quiet"};
 }
 
-TEST_CASE("plan traces the front between duration and sway", "[cli][pareto]") {
+TEST_CASE("plan traces the front between duration and DAF", "[cli][pareto]") {
   const Folder folder;
   const std::string gradient = GENERATE(as<std::string>(), "slsqp", "none");
   const Result r = run(folder, front_of("front", gradient, "--force"));
   INFO(r.err);
   REQUIRE(r.code == 0);
-  CHECK_THAT(r.out, Contains("Front of duration and sway_peak:"));
+  CHECK_THAT(r.out, Contains("Front of duration and daf_total:"));
   CHECK_THAT(content(folder / "front/report.html"), Contains("Choice between"));
   const auto front = nlohmann::json::parse(content(folder / "front/summary.json"))["pareto"];
   CHECK(front["first"] == "duration");
