@@ -56,6 +56,7 @@ Case read_case_text(const std::string& text, const std::string& name, const std:
   findings.throw_if_any();  // what follows takes every key and name for good
   check_lift(c, root, findings);
   check_plan(c, root, findings);
+  check_varied_moves(c, root, findings);
   check_fit(c, root, findings);
   findings.throw_if_any();
   if (c.title.empty()) c.title = c.name;

@@ -19,6 +19,9 @@ void check_lift(const Case& c, const Node& root, Findings& findings);
 /// Metrics that exist, variables that lead to a number between their bounds, scenarios.
 void check_plan(const Case& c, const Node& root, Findings& findings);
 
+/// Moves whose speed or ramp a search changes stay within the limits of their drives anywhere between its bounds.
+void check_varied_moves(const Case& c, const Node& root, Findings& findings);
+
 /// Parameters and records of the fit.
 void check_fit(const Case& c, const Node& root, Findings& findings);
 
