@@ -115,7 +115,7 @@ PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem
   result.search = search(asked.watch(with_store(problem, store, "search")), search_with);
   result.distinct = asked.count();
   result.interrupted = result.search.status == SearchStatus::interrupted;
-  if (result.interrupted || result.search.evaluations == 0) return result;
+  if (result.interrupted || result.search.evaluations == 0 || !evaluator.base().plan.random_search) return result;
 
   SearchOptions sample_with = search_with;
   sample_with.evaluations = result.search.evaluations;
@@ -148,8 +148,9 @@ StoreIdentity store_identity(const Case& c) {
   Node document = parse_document(c.resolved, c.file);
   document.remove("tune");
   if (Node* plan = document.find("plan"))
-    for (const char* key : {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm",
-                            "local_algorithm", "gradient_algorithm", "gradient_evaluations", "certify", "pareto"})
+    for (const char* key :
+         {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm",
+          "gradient_algorithm", "gradient_evaluations", "random_search", "certify", "pareto"})
       plan->remove(key);
   StoreIdentity identity;
   identity.version = kVersion;

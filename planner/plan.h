@@ -37,7 +37,7 @@ struct PlanResult {
   bool has_plan() const { return search.best_evaluation > 0 && search.best.usable; }
 };
 
-/// Searches, then samples at random as many points as the search took. Deterministic for a case without time budget:
+/// Searches, then samples at random as many points as the search took, unless the case asks for none. Deterministic for a case without time budget:
 /// with what the store holds answered from there, it ends at the same plan. Throws CaseError if the case's algorithms
 /// cannot solve its problem.
 PlanResult solve_plan(const Evaluator& evaluator, EvaluationStore& store, const PlanOptions& options = {});

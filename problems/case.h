@@ -60,6 +60,7 @@ struct PlanSpec {
   int evaluations = 60;                  // budget
   std::string gradient_algorithm = "none";  // first stage, on the smooth problem with exact gradients
   int gradient_evaluations = 12;         // points with gradient
+  bool random_search = true;             // beside the search, with as many evaluations
   int certify = 0;                       // fresh seeds or phases for each scenario that the finished plan is tried in
   ParetoSpec pareto;
   double time_budget = 0.0;              // s of wall time, 0 = none (a time budget gives up reproducibility)

@@ -115,6 +115,8 @@ const Table& plan_table() {
         "`ccsaq`, `mma`, `lbfgs`; or `none`.");
     t.integer("gradient_evaluations", &S::gradient_evaluations, Range{1, 100000, false},
               "Budget of that stage, points with gradient.");
+    t.boolean("random_search", &S::random_search,
+              "After the search, a random search with as many evaluations, for comparison.");
     t.integer("certify", &S::certify, Range{0, 100000, false},
               "The finished plan is tried in so many fresh seeds (or wave phases) of each scenario; 0 = not.");
     t.table("pareto", &S::pareto, &pareto_table, "A front between two metrics.").absent("none");

@@ -115,7 +115,10 @@ std::string search_part(const SearchSection& search) {
   std::string out = "<div class=\"tiles\">" +
                     outcome("objective, baseline", search.baseline_objective, search.baseline_feasible) +
                     outcome("objective, plan", search.plan_objective, search.plan_feasible) +
-                    outcome("objective, random search", search.random_objective, search.random_feasible) + "</div>";
+                    (search.random_history.empty()
+                         ? std::string()
+                         : outcome("objective, random search", search.random_objective, search.random_feasible)) +
+                    "</div>";
   out += fmt::format("<p>{}; {} evaluations, {} simulations' worth of work, seed {}{}. {}</p>",
                      escape_html(search.algorithm), search.evaluations, fixed_number(search.simulation_equivalents, 0),
                      search.seed,

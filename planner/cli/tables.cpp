@@ -32,9 +32,10 @@ std::string comparison_text(const SearchSection& s) {
   };
   add("baseline", s.baseline_objective, s.baseline_feasible);
   add("plan", s.plan_objective, s.plan_feasible);
-  add("random search", s.random_objective, s.random_feasible);
-  return fmt::format("After {} evaluations ({}; {:g} simulations), random search with as many\n{}", s.evaluations,
-                     s.algorithm, s.simulation_equivalents, table.text());
+  const bool compared = !s.random_history.empty();
+  if (compared) add("random search", s.random_objective, s.random_feasible);
+  return fmt::format("After {} evaluations ({}; {:g} simulations){}\n{}", s.evaluations, s.algorithm,
+                     s.simulation_equivalents, compared ? ", random search with as many" : "", table.text());
 }
 
 std::string variables_text(const SearchSection& s) {

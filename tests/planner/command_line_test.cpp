@@ -164,6 +164,19 @@ TEST_CASE("plan: better than the baseline, the same with one thread and two, and
   FAIL("neither scenario gives the metrics of the summary");
 }
 
+TEST_CASE("plan leaves the random search out where it is not wanted, and --resume adds it") {
+  const Folder folder;
+  const Result alone =
+      run(folder, {"plan", kCase, "--out", "p", "--evaluations", "6", "--set", "plan.random_search=false"});
+  REQUIRE(alone.code == 0);
+  CHECK_THAT(alone.out, !Catch::Contains("random search"));
+  CHECK_THAT(content(folder / "p/report.html"), !Catch::Contains("random search"));
+  CHECK(json::parse(content(folder / "p/summary.json"))["objective"]["random_search"].is_null());
+  const Result both = run(folder, {"plan", kCase, "--out", "p", "--evaluations", "6", "--resume"});
+  CHECK_THAT(both.out, Catch::Contains("random search"));
+  CHECK(json::parse(content(folder / "p/summary.json"))["objective"]["random_search"].is_number());
+}
+
 TEST_CASE("plan without a feasible point is 3, with the least violation in its folder") {
   const Folder folder;
   const Result result =
