@@ -17,13 +17,15 @@ constexpr std::array kFiles = {"case.toml",
                                "history.xlsx",
                                "report.html",
                                "plan.toml",
-                               "fitted.toml", "tuned.toml",
+                               "fitted.toml",
+                               "tuned.toml",
                                "evaluations.sqlite",
                                "evaluations.sqlite-wal",
                                "evaluations.sqlite-shm",
                                "front.sqlite",
                                "front.sqlite-wal",
-                               "front.sqlite-shm"};
+                               "front.sqlite-shm",
+                               "judgement.json"};
 
 /// What a run that was killed left half written.
 bool is_unfinished(const fs::path& file) {

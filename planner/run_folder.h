@@ -1,6 +1,6 @@
 // The folder that a run leaves: case.toml, summary.json, history.nc, report.html and, for searches, plan.toml and
-// evaluations.sqlite, front.sqlite; for fits fitted.toml; for tuned gains tuned.toml; for hydro coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at
-// all.
+// evaluations.sqlite, front.sqlite, judgement.json; for fits fitted.toml; for tuned gains tuned.toml; for hydro
+// coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at all.
 #pragma once
 
 #include <stdexcept>
@@ -38,7 +38,8 @@ class RunFolder {
   std::string fitted() const { return path_ + "/fitted.toml"; }
   std::string store() const { return path_ + "/evaluations.sqlite"; }
   std::string front_store() const { return path_ + "/front.sqlite"; }
-  std::string csv() const { return path_ + "/history.csv"; }    // exports
+  std::string judgement() const { return path_ + "/judgement.json"; }
+  std::string csv() const { return path_ + "/history.csv"; }  // exports
   std::string xlsx() const { return path_ + "/history.xlsx"; }
 
  private:

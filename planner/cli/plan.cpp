@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 
 #include "planner/certify.h"
 #include "planner/cli/commands.h"
@@ -18,6 +19,7 @@
 #include "planner/sensitivity.h"
 #include "planner/version.h"
 #include "results/files.h"
+#include "results/judgement.h"
 
 namespace stillhook {
 namespace {
@@ -127,31 +129,34 @@ class Conclusion {
     }
     summary_.limits = worst_limits(limits);
     write_history(folder_, run, planned, "plan");
-    const std::vector<ReportTable> tables = judgement(x);  // adds to search_
+    const Judgement judgement = judged_plan(x);
+    std::filesystem::remove(folder_.judgement());  // of an earlier plan, before --resume
+    if (!judgement.empty()) write_or_refuse([&] { write_judgement(judgement, folder_.judgement()); });
+    search_.sensitivities = judgement.sensitivities;
     write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
-                     {history_note(evaluator_, governing)}, tables);
+                     {history_note(evaluator_, governing)}, judgement.tables);
   }
 
   /// Sensitivities where the case follows gradients, certification where it asks for it.
-  std::vector<ReportTable> judgement(const Eigen::VectorXd& x) {
-    std::vector<ReportTable> tables;
+  Judgement judged_plan(const Eigen::VectorXd& x) {
+    Judgement judgement;
     const PlanSpec& plan = evaluator_.base().plan;
     if (plan.certify > 0) {
       spdlog::info("running plan and baseline in {} fresh conditions",
                    plan.certify * static_cast<int>(std::max<std::size_t>(1, plan.scenarios.size())));
       certificate_ = certify(evaluator_, x, &stop_);
-      for (ReportTable& table : certificate_tables(*certificate_)) tables.push_back(std::move(table));
+      judgement.tables = certificate_tables(*certificate_);
     }
     if (plan.gradient_algorithm != "none") {
       const PlanSensitivities sensitivities = plan_sensitivities(evaluator_, x);
       if (!sensitivities.valid)
         summary_.warnings.push_back("the derivatives at the plan are not usable: no sensitivities");
       if (sensitivities.valid) {
-        search_.sensitivities = sensitivity_table(evaluator_, sensitivities);
-        tables.push_back(price_table(sensitivities));
+        judgement.sensitivities = sensitivity_table(evaluator_, sensitivities);
+        judgement.tables.push_back(price_table(sensitivities));
       }
     }
-    return tables;
+    return judgement;
   }
 
   void print() const {

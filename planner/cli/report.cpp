@@ -8,6 +8,7 @@
 #include "planner/pareto.h"
 #include "planner/plan_results.h"
 #include "results/archive.h"
+#include "results/judgement.h"
 
 namespace stillhook {
 namespace {
@@ -36,11 +37,15 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
     EvaluationStore front_store(folder.front_store(), front_identity(c), of_front.problem());
     search.pareto = front_drawing(replay_front(of_front, result, front_store));
   }
-  if (c.plan.certify > 0 || c.plan.gradient_algorithm != "none")
-    spdlog::warn(
-        "the rebuilt report has no certificate and no sensitivities: these take simulations (`plan --resume`)");
+  Judgement judgement;
+  if (std::filesystem::exists(folder.judgement()))
+    judgement = read_judgement(folder.judgement());
+  else if (c.plan.certify > 0 || c.plan.gradient_algorithm != "none")
+    spdlog::warn("the rebuilt report has no certificate and no sensitivities: {} is missing (`plan --resume` makes it)",
+                 folder.judgement());
+  search.sensitivities = judgement.sensitivities;
   write_run_report(folder, run, prepare_run(planned, run.specification), planned, statement, &search,
-                   {history_note(evaluator, governing)});
+                   {history_note(evaluator, governing)}, judgement.tables);
 }
 
 }  // namespace

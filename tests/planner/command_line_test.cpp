@@ -129,7 +129,13 @@ TEST_CASE("the report of a run folder can be rebuilt, for a run and for a plan")
   const Folder folder;
   REQUIRE(run(folder, {"simulate", kCase, "--out", "s"}).code == 0);
   REQUIRE(run(folder, {"plan", kCase, "--out", "p", "--evaluations", "6"}).code == 0);
-  for (const char* name : {"s", "p"}) {
+  REQUIRE(run(folder, {"plan", kCase, "--out", "g", "--evaluations", "4", "--set", "plan.gradient_algorithm=slsqp",
+                       "--set", "plan.gradient_evaluations=3", "--set", "plan.certify=3"})
+              .code == 0);
+  const std::string judged = content(folder / "g/report.html");
+  CHECK(judged.find("What moves what at the plan") != std::string::npos);
+  CHECK(judged.find("In conditions the search has not seen") != std::string::npos);
+  for (const char* name : {"s", "p", "g"}) {
     CAPTURE(name);
     const std::string report = folder / (std::string(name) + "/report.html");
     const std::string before = content(report);
