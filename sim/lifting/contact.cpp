@@ -1,7 +1,5 @@
 #include "sim/lifting/contact.h"
 
-#include <ceres/jet.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,6 +26,12 @@ struct Contact::Touch {
   double beside = 0.0;  // m, horizontal distance from the rectangle, 0 above it
   bool touching() const { return depth > 0.0 && beside == 0.0; }
   double gap() const { return beside > 0.0 ? std::hypot(beside, depth) : -depth; }
+};
+
+// The derivatives of x_S and v_S: by the configuration of the point's body (xA, vA) and of the surface's (xS, vS).
+// Those of v_S by the bodies' velocities are xA and xS again.
+struct Contact::Seen {
+  Matrix36 xA, vA, xS, vS;
 };
 
 // The tangential force on one point: of the spring (E), and in all (F).
@@ -60,6 +64,11 @@ Cut cut(const Eigen::Vector2d& force, double cone) {
 }
 
 }  // namespace
+
+// By the depth and by its rate.
+Contact::Dual Contact::normal_force(const Touch& t) const {
+  return unilateral_force(Dual(t.depth, 0), Dual(-t.v_S.z(), 1), Dual(k_), Dual(c_), Dual(options_.damping_depth));
+}
 
 Contact::Contact(ContactOptions options) : ForceElement(options.name), options_(std::move(options)) {
   const ContactOptions& o = options_;
@@ -102,6 +111,17 @@ Contact::Touch Contact::touch(const Vector3& point, const Surface& s, const Inst
   t.beside = std::hypot(std::max(0.0, std::abs(from_centre.x()) - 0.5 * options_.length),
                         std::max(0.0, std::abs(from_centre.y()) - 0.5 * options_.breadth));
   return t;
+}
+
+Contact::Seen Contact::seen(const Touch& t, const Surface& s, const Instant& now) const {
+  const Matrix3 R_SW = s.R_WS.transpose(), turn = cross_matrix(s.w_S);
+  Seen d;
+  d.xA = R_SW * position_jacobian(t.point, now);
+  d.vA = R_SW * velocity_stiffness(t.point, now) - turn * d.xA;
+  d.xS << -R_SW, cross_matrix(t.x_S);
+  d.vS = -turn * d.xS;
+  d.vS.rightCols<3>() += cross_matrix(R_SW * (t.motion.v - s.v_WC));
+  return d;
 }
 
 Contact::Grip Contact::grip(const Touch& t, double N, std::span<const double> state) const {
@@ -183,15 +203,12 @@ void Contact::add_forces(const Instant& now, double, Memory m, ForceSum& out) co
 
 void Contact::add_jacobian(const Instant& now, double, Memory m, JacobianSum& out) const {
   if (!active(now)) return;
-  using Dual = ceres::Jet<double, 2>;
   const Surface s = surface(now);
-  const Matrix3 R_SW = s.R_WS.transpose(), turn = cross_matrix(s.w_S);
   const int A = options_.body, S = options_.surface.body;
   for (std::size_t i = 0; i < options_.points.size(); ++i) {
     const Touch t = touch(options_.points[i], s, now);
     if (!t.touching()) continue;
-    const Dual N =
-        unilateral_force(Dual(t.depth, 0), Dual(-t.v_S.z(), 1), Dual(k_), Dual(c_), Dual(options_.damping_depth));
+    const Dual N = normal_force(t);
     if (N.a <= 0.0) continue;
 
     // f_S = (F_t, N) and its derivatives with respect to x_S and v_S.
@@ -204,18 +221,12 @@ void Contact::add_jacobian(const Instant& now, double, Memory m, JacobianSum& ou
     f_x.topLeftCorner<2, 2>() -= k_ * g.by_spring;
     f_v.topLeftCorner<2, 2>() -= c_ * g.by_damper;
 
-    // x_S and v_S by the configurations (x_A, v_A of the point's body, x_S, v_S of the surface's) and velocities.
-    const Matrix36 P = position_jacobian(t.point, now), V = velocity_stiffness(t.point, now);
-    const Matrix36 xA = R_SW * P, vA = R_SW * V - turn * xA;
-    Matrix36 xS = Matrix36::Zero(), vS = Matrix36::Zero(), rate_S = Matrix36::Zero(), swing = Matrix36::Zero();
-    xS << -R_SW, cross_matrix(t.x_S);
-    rate_S = xS;
-    vS = -turn * xS;
-    vS.rightCols<3>() += cross_matrix(R_SW * (t.motion.v - s.v_WC));
+    const auto [xA, vA, xS, vS] = seen(t, s, now);
+    Matrix36 swing = Matrix36::Zero();
     swing.rightCols<3>() = -cross_matrix(f_S);  // the force turns with the surface
 
     const Matrix36 f_A = f_x * xA + f_v * vA, f_A_u = f_v * xA;
-    const Matrix36 f_Sx = f_x * xS + f_v * vS, f_S_u = f_v * rate_S;
+    const Matrix36 f_Sx = f_x * xS + f_v * vS, f_S_u = f_v * xS;
     const Vector3 F_W = s.R_WS * f_S;
     add_force_jacobian(t.point, now, F_W, A, s.R_WS * f_A, s.R_WS * f_A_u, true, out);
     add_force_jacobian(t.point, now, F_W, S, s.R_WS * (f_Sx + swing), s.R_WS * f_S_u, false, out);
@@ -232,6 +243,81 @@ void Contact::add_jacobian(const Instant& now, double, Memory m, JacobianSum& ou
     out.add_stiffness(S, S, K);
     out.add_damping(S, S, C);
   }
+}
+
+// Of what the step begins with only the anchors enter the force.
+bool Contact::add_history_tangent(const Instant&, const Instant& now, double, Memory m, const BodyChange&,
+                                  const Eigen::Ref<const MatrixX>& state, Eigen::Ref<MatrixX> dQ) const {
+  if (!active(now)) return true;
+  const Surface s = surface(now);
+  const int A = options_.body, S = options_.surface.body;
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    if (!t.touching()) continue;
+    const double N = unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth);
+    if (N <= 0.0) continue;
+    const int first = kStatesPerPoint * static_cast<int>(i);
+    const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
+    Eigen::Matrix<double, 3, 2> f_S = Eigen::Matrix<double, 3, 2>::Zero();  // by the anchor
+    f_S.topRows<2>() = k_ * g.by_spring;
+    const Eigen::Matrix<double, 3, 2> F_W = s.R_WS * f_S;
+    Eigen::Matrix<double, 6, 2> Q;
+    if (A != kWorld) {
+      Q = position_jacobian(t.point, now).transpose() * F_W;
+      dQ.middleRows<6>(6 * A) += Q.lazyProduct(state.middleRows<2>(first));
+    }
+    if (S != kWorld) {
+      Q << -F_W, -cross_matrix(t.x_S) * f_S;
+      dQ.middleRows<6>(6 * S) += Q.lazyProduct(state.middleRows<2>(first));
+    }
+  }
+  return true;
+}
+
+bool Contact::advance_state_tangent(const Instant&, const Instant& now, double h, Memory m, const BodyChange&,
+                                    const BodyChange& to, Eigen::Ref<MatrixX> state) const {
+  const Surface s = surface(now);
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    auto rows = state.middleRows<kStatesPerPoint>(kStatesPerPoint * static_cast<int>(i));
+    const Touch t = touch(options_.points[i], s, now);
+    const bool touching = active(now) && t.touching();
+    Dual N(0.0);
+    Cut spring;
+    if (touching) {
+      N = normal_force(t);
+      const Eigen::Vector2d anchor(m.state[kStatesPerPoint * i + kAnchorX], m.state[kStatesPerPoint * i + kAnchorY]);
+      spring = cut(-k_ * (t.x_S.head<2>() - anchor), options_.friction * N.a);
+      if (!spring.acts) {
+        rows.bottomRows<2>().setZero();  // it sticks
+        continue;
+      }
+    }
+    // What the anchor becomes by x_S, by v_S and by what it was: x_S itself, or as far behind as the cone allows.
+    Eigen::Matrix<double, 2, 3> by_x = Eigen::Matrix<double, 2, 3>::Identity(),
+                                by_v = Eigen::Matrix<double, 2, 3>::Zero();
+    Eigen::Matrix2d by_anchor = Eigen::Matrix2d::Zero();
+    if (touching) {
+      by_anchor = spring.by_force;
+      by_x.leftCols<2>() -= spring.by_force;
+      by_x.col(2) = -(options_.friction * N.v[0] / k_) * spring.by_cone;
+      by_v.col(2) = -(options_.friction * N.v[1] / k_) * spring.by_cone;
+    }
+    const auto [xA, vA, xS, vS] = seen(t, s, now);
+    const auto add = [&](int body, const Matrix36& x, const Matrix36& v, auto& sum) {
+      if (body == kWorld) return;
+      const Eigen::Matrix<double, 2, 6> by_xi = by_x * x + by_v * v, by_u = by_v * x;
+      sum += by_xi.lazyProduct(to.xi.middleRows<6>(6 * body));
+      sum += by_u.lazyProduct(to.u.middleRows<6>(6 * body));
+    };
+    const Eigen::Matrix<double, 2, Eigen::Dynamic> before = rows.topRows<2>();
+    Eigen::Matrix<double, 2, Eigen::Dynamic> anchor = by_anchor.lazyProduct(before);
+    add(options_.body, xA, vA, anchor);
+    add(options_.surface.body, xS, vS, anchor);
+    rows.topRows<2>() = anchor;
+    rows.bottomRows<2>().setZero();
+    if (touching && h > 0.0) rows.bottomRows<2>() = (anchor - before) / h;
+  }
+  return true;
 }
 
 double Contact::potential_energy(const Instant& now, Memory m) const {

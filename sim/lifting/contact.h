@@ -19,6 +19,8 @@
 // leaves the surface loses what is stored.
 #pragma once
 
+#include <ceres/jet.h>
+
 #include "sim/multibody/point.h"
 
 namespace stillhook {
@@ -52,6 +54,10 @@ class Contact final : public ForceElement {
   void end_step(const Instant& now, double h, Memory m) const override;
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;
+  bool add_history_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                           const Eigen::Ref<const MatrixX>& state, Eigen::Ref<MatrixX> dQ) const override;
+  bool advance_state_tangent(const Instant& before, const Instant& now, double h, Memory m, const BodyChange& from,
+                             const BodyChange& to, Eigen::Ref<MatrixX> state) const override;
   double potential_energy(const Instant& now, Memory m) const override;
   double dissipated_power(const Instant& now, Memory m) const override;
   /// Force, deepest penetration, smallest gap (distance to the rectangle; negative: penetrated), approach speed
@@ -64,6 +70,8 @@ class Contact final : public ForceElement {
   struct Surface;
   struct Touch;
   struct Grip;
+  struct Seen;
+  using Dual = ceres::Jet<double, 2>;
   enum {
     kAnchorX,
     kAnchorY,
@@ -73,6 +81,8 @@ class Contact final : public ForceElement {
   };  // m in S, and speed of the anchor over the last step, m/s
   Surface surface(const Instant& now) const;
   Touch touch(const Vector3& point, const Surface& s, const Instant& now) const;
+  Seen seen(const Touch& t, const Surface& s, const Instant& now) const;
+  Dual normal_force(const Touch& t) const;
   Grip grip(const Touch& t, double N, std::span<const double> state) const;
   bool active(const Instant& now) const { return now.phase >= options_.active_from_phase; }
 

@@ -84,6 +84,8 @@ struct ElementCase {
   /// Power that the drives give, W; needed where drives > 0.
   std::function<double(const ForceElement&, const Instant&, Memory)> drive_power;
   bool energy_account = true;  // false: the element has no potential energy of its own to balance
+  int report_states = 0;       // so many of the last states are for reports alone: their derivatives are not offered
+  bool smooth_history = true;  // false: the step begins at a kink of the law, where there is no derivative
   double energy_time = 1e-4;   // s, of the difference of the energy
   double step = 2e-5;          // m, rad, m/s, rad/s: of the differences
   /// Of a 3 x 3 block's norm. Richardson's rule on smooth laws leaves 1e-9; the margin covers laws with short scales.
@@ -163,6 +165,66 @@ inline void check_derivatives(const ElementCase& c, const ForceElement& e, const
   check_blocks(jacobian.damping(), C, c.tolerance, "C");
 }
 
+/// How the force at the end of a step, and the states it leaves, change with what the step began with: the element's
+/// own derivatives along random directions against central differences, where it offers them.
+inline void check_history(const ElementCase& c, const ForceElement& e, const Scene& s, Memory m, std::mt19937& random) {
+  if (!(c.time_step > 0.0) || !c.smooth_history || !e.has_history()) return;
+  constexpr int kDirections = 3;
+  const double h = c.time_step;
+  const int n = 6 * static_cast<int>(s.body.size()), states = e.state_size();
+  const auto any = [&](int rows) {
+    MatrixX x(rows, kDirections);
+    std::uniform_real_distribution<double> range(-1.0, 1.0);
+    for (double& v : x.reshaped()) v = range(random);
+    return x;
+  };
+  const BodyChange from{any(n), any(n)}, to{any(n), any(n)};
+  const MatrixX state = any(states);
+  const Scene before = s.moved(-h);
+  prepare(e, s, h, m);
+  const std::vector<double> start(m.state.begin(), m.state.end());
+  MatrixX dQ = MatrixX::Zero(n, kDirections), advanced = state;
+  if (!e.add_history_tangent(before.instant(), s.instant(), h, m, from, state, dQ)) return;
+  REQUIRE(e.advance_state_tangent(before.instant(), s.instant(), h, m, from, to, advanced));
+
+  const auto along = [](const Scene& scene, const BodyChange& change, int j, double by) {
+    Scene moved = scene;
+    for (std::size_t i = 0; i < moved.body.size(); ++i) {
+      BodyKinematics& b = moved.body[i];
+      const int r = 6 * static_cast<int>(i);
+      b.p_WC += by * change.xi.col(j).segment<3>(r);
+      b.R_WB = b.R_WB * exp_rotation(by * change.xi.col(j).segment<3>(r + 3));
+      b.v_WC += by * change.u.col(j).segment<3>(r);
+      b.w_B += by * change.u.col(j).segment<3>(r + 3);
+    }
+    return moved;
+  };
+  for (int j = 0; j < kDirections; ++j) {
+    // The force and the states, one above the other, with the beginning of the step moved; the end only for the states.
+    const auto at = [&](double by) {
+      for (int k = 0; k < states; ++k) m.state[k] = start[k] + by * state(k, j);
+      e.begin_step(along(before, from, j, by).instant(), h, m);
+      VectorX result(n + states);
+      result.head(n) = forces(e, s, h, m);
+      e.end_step(along(s, to, j, by).instant(), h, m);
+      for (int k = 0; k < states; ++k) result[n + k] = m.state[k];
+      return result;
+    };
+    const auto slope = [&](double step) { return VectorX((at(step) - at(-step)) / (2.0 * step)); };
+    const VectorX truth = (4.0 * slope(0.5 * c.step) - slope(c.step)) / 3.0;
+    INFO("direction " << j << "\n"
+                      << truth.transpose() << "\n"
+                      << dQ.col(j).transpose() << " " << advanced.col(j).transpose());
+    const VectorX wanted = truth.segment(n, states - c.report_states),
+                  given = advanced.col(j).head(states - c.report_states);
+    // Rounding of the force's own size over the step, beside the truth's own tolerance.
+    const double rounding = 1e-13 * forces(e, s, h, m).norm() / c.step;
+    CHECK((truth.head(n) - dQ.col(j)).norm() <= c.tolerance * truth.head(n).norm() + rounding);
+    CHECK((wanted - given).norm() <= c.tolerance * (1.0 + wanted.norm()));
+  }
+  for (int k = 0; k < states; ++k) m.state[k] = start[k];
+}
+
 /// Sum of forces and of moments about the world's origin, relative to their sizes.
 inline void check_action_reaction(const ElementCase& c, const ForceElement& e, const Scene& s, Memory m) {
   prepare(e, s, c.time_step, m);
@@ -238,7 +300,7 @@ inline void check_pure(const ElementCase& c, const ForceElement& e, const Scene&
 /// Everything above at several scenes, and finite output at wild ones.
 inline void check_force_element(const ElementCase& c, int scenes = 6) {
   INFO(c.name);
-  std::mt19937 random(20180401);
+  std::mt19937 random(20180401), directions(7);
   const auto next = [&] { return c.scene ? c.scene(random) : general_scene(random, c.bodies, c.drives); };
   for (int i = 0; i < scenes; ++i) {
     const Scene s = next();
@@ -253,6 +315,7 @@ inline void check_force_element(const ElementCase& c, int scenes = 6) {
       REQUIRE(size == 0.0);
     }
     check_derivatives(c, *e, s, m);
+    check_history(c, *e, s, m, directions);
     if (c.between_bodies) check_action_reaction(c, *e, s, m);
     if (c.energy_account) check_power_balance(c, *e, s, m);
     check_pure(c, *e, s, m);
