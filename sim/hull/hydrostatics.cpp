@@ -111,20 +111,20 @@ class Hydrostatics final : public ForceElement {
     Samples(Memory m, int strip_count, std::size_t n) : strips(strip_count) {
       std::span<double>* all[] = {&x, &y, &z, &depth, &depth_x, &depth_y, &head, &head_x, &head_y, &head_z};
       for (std::size_t i = 0; i < std::size(all); ++i) *all[i] = m.scratch.subspan(i * n, n);
-      sensitivity = m.scratch.subspan(std::size(all) * n, 12 * n);
+      head_pose = m.scratch.subspan(std::size(all) * n, 6 * n);
     }
     int strips;
     std::span<double> x, y, z;                       // m, in W
     std::span<double> depth, depth_x, depth_y;       // m, zeta - z; its derivative by z is -1
     std::span<double> head, head_x, head_y, head_z;  // the head is zero where the depth is negative
-    std::span<double> sensitivity;                   // of (F_B, M_B)/(-rho g) to depth and head: 2 x 6 a vertex
+    std::span<double> head_pose;                     // of the head by xi: n x 6, a coordinate after the other
   };
   struct Load {
     Vector3 F_B, M_B;  // N in B, N m about C in B
   };
 
   Samples reachable(const Instant& now, Memory m) const;
-  int sample_size() const { return 22 * static_cast<int>(r_.size()); }
+  int sample_size() const { return 16 * static_cast<int>(r_.size()); }
   std::span<const Panel> panels(const Samples& s) const {
     return {panels_.data(), static_cast<std::size_t>(s.strips > 0 ? strips_[s.strips - 1].end_panel : 0)};
   }
@@ -134,9 +134,9 @@ class Hydrostatics final : public ForceElement {
   void for_cut_panels(const Samples& s, const Instant& now, Visitor visit) const;
   void integrate_cut_panels(const Samples& s, bool tips, CutPanels& cut, LaneIntegrals& I) const;
   Load load_of(const HeadIntegral& I, const Matrix3& R_WB) const;
-  void differentiate_panels(const Samples& s, const Instant& now) const;
-  void take_off_linear(const Samples& s, const Panel& panel, const Vector3& S, int wet) const;
-  void add_cut_panel(const Samples& s, const Panel& panel, const Vector3& S, int wet) const;
+  void differentiate_heads(const Matrix3& R_WB, Samples& s) const;
+  Matrix6 linear_sensitivity(const Samples& s, const Vector3& k_B) const;
+  void add_cut_panel(const Samples& s, const Panel& panel, const Matrix3& R_WB, int wet, Matrix6& sum) const;
 
   // Area vector that the pressure acts on: the whole of it, or its vertical part.
   Vector3 effective(const Vector3& S_B, const Vector3& k_B) const {
@@ -168,8 +168,7 @@ Hydrostatics::Samples Hydrostatics::reachable(const Instant& now, Memory m) cons
   return {m, strips, static_cast<std::size_t>(strips > 0 ? strips_[strips - 1].vertices : 0)};
 }
 
-void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m,
-                           Samples& s) const {
+void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const {
   const Matrix3& R = now.body[body_].R_WB;
   const Vector3& p = now.body[body_].p_WC;
   const std::size_t n = s.depth.size();
@@ -277,56 +276,67 @@ Hydrostatics::Load Hydrostatics::load_of(const HeadIntegral& I, const Matrix3& R
   return {-weight_ * k.dot(I.n) * k, -weight_ * (I.rn * k).cross(k)};
 }
 
-// Derivatives of sum S m_i and sum (m_i r_i) x S by the depth and head of every vertex, S held. As in integrate(): the
-// linear sum over all panels, whose factors are constants of the vertices, and what cut panels have more.
-void Hydrostatics::differentiate_panels(const Samples& s, const Instant& now) const {
-  const Vector3 k_B = now.body[body_].R_WB.row(2);
-  std::ranges::fill(s.sensitivity, 0.0);
-  for (std::size_t v = 0; v < s.depth.size(); ++v) {
-    if (!(s.depth[v] > 0.0)) continue;  // the head of a dry vertex is zero whatever moves
-    const auto row = static_cast<Eigen::Index>(v);
-    HeadIntegral I;
-    I.n = weights_.row(row).head<3>();
-    for (int i = 0; i < 9; ++i) I.rn(i) = weights_(row, 3 + i);
-    Eigen::Map<Vector6> to(&s.sensitivity[12 * v + 6]);
-    if (model_ == FroudeKrylov::pressure)
-      to << I.n, I.r_cross_n();
-    else
-      to << k_B.dot(I.n) * k_B, (I.rn * k_B).cross(k_B);
-  }
-  for_cut_panels(s, now, [&](const Panel& panel, int wet) {
-    const Vector3 S = effective(panel.S_B, k_B);
-    take_off_linear(s, panel, S, wet);
-    add_cut_panel(s, panel, S, wet);
-  });
-}
-
-// On a wet panel dm_i/dh_j is 1/12, and 1/6 for i = j; the depths do not matter.
-void Hydrostatics::take_off_linear(const Samples& s, const Panel& panel, const Vector3& S, int wet) const {
-  const Vector3 sum = r_[panel.corner[0]] + r_[panel.corner[1]] + r_[panel.corner[2]];
+// Chain to the pose: d(value at a vertex) = g_W . dp + (r x g_B) . dtheta. The head of a dry vertex is zero whatever
+// moves.
+void Hydrostatics::differentiate_heads(const Matrix3& R, Samples& s) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(s.depth.size());
+  const auto r = coordinates_.topRows(n).array();
+  const auto wet = (VectorX::Map(s.depth.data(), n).array() > 0.0).cast<double>();
+  Eigen::Map<MatrixX> pose(s.head_pose.data(), n, 6);
+  const std::span<double> slope[] = {s.head_x, s.head_y, s.head_z};
+  for (int i = 0; i < 3; ++i) pose.col(i).array() = wet * VectorX::Map(slope[i].data(), n).array();
+  const auto g_x = pose.col(0).array(), g_y = pose.col(1).array(), g_z = pose.col(2).array();
   for (int i = 0; i < 3; ++i) {
-    if (!(wet & (1 << i))) continue;
-    const int v = panel.corner[i];
-    Eigen::Map<Vector6> to(&s.sensitivity[12 * v + 6]);
-    to.head<3>() -= S / 3.0;
-    to.tail<3>() -= ((sum + r_[v]) / 12.0).cross(S);
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    pose.col(3 + i).array() = r.col(j) * (R(0, k) * g_x + R(1, k) * g_y + R(2, k) * g_z) -
+                              r.col(k) * (R(0, j) * g_x + R(1, j) * g_y + R(2, j) * g_z);
   }
 }
 
-void Hydrostatics::add_cut_panel(const Samples& s, const Panel& panel, const Vector3& S, int wet) const {
+// Of sum S m_i and sum (m_i r_i) x S by the pose, S held, as if no panel were cut: as in integrate() the heads times
+// constants of the vertices.
+Matrix6 Hydrostatics::linear_sensitivity(const Samples& s, const Vector3& k_B) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(s.depth.size());
+  const Eigen::Map<const MatrixX> pose(s.head_pose.data(), n, 6);
+  Eigen::Matrix<double, 12, 6> sums;
+  sums.noalias() = weights_.topRows(n).transpose() * pose;
+  Matrix6 result;
+  for (int c = 0; c < 6; ++c) {
+    HeadIntegral I;
+    I.n = sums.col(c).head<3>();
+    I.rn = Eigen::Map<const Matrix3>(sums.col(c).data() + 3);
+    if (model_ == FroudeKrylov::pressure)
+      result.col(c) << I.n, I.r_cross_n();
+    else
+      result.col(c) << k_B.dot(I.n) * k_B, (I.rn * k_B).cross(k_B);
+  }
+  return result;
+}
+
+// What a cut panel has more: on a wet panel dm_i/dh_j is 1/12, and 1/6 for i = j; the depths do not matter.
+void Hydrostatics::add_cut_panel(const Samples& s, const Panel& panel, const Matrix3& R, int wet, Matrix6& sum) const {
   Dual depth[3], head[3], m[3];
   for (int i = 0; i < 3; ++i) {
     depth[i] = Dual(s.depth[panel.corner[i]], i);
     head[i] = Dual(s.head[panel.corner[i]], 3 + i);
   }
   clipped_panel::moments(wet, depth, head, m);
-  for (int j = 0; j < 6; ++j) {
-    Vector3 q = Vector3::Zero();
-    for (int i = 0; i < 3; ++i) q += m[i].v[j] * r_[panel.corner[i]];
-    Eigen::Map<Vector6> to(&s.sensitivity[12 * panel.corner[j % 3] + (j < 3 ? 0 : 6)]);
-    to.head<3>() += (m[0].v[j] + m[1].v[j] + m[2].v[j]) * S;
-    to.tail<3>() += q.cross(S);
+  const Eigen::Index n = static_cast<Eigen::Index>(s.depth.size());
+  const Eigen::Map<const MatrixX> pose(s.head_pose.data(), n, 6);
+  Vector6 by_pose[3] = {Vector6::Zero(), Vector6::Zero(), Vector6::Zero()};  // of m_i
+  for (int j = 0; j < 3; ++j) {
+    const int v = panel.corner[j];
+    const Vector3 slope(s.depth_x[v], s.depth_y[v], -1.0);
+    Vector6 depth_by_pose;
+    depth_by_pose << slope, r_[v].cross(R.transpose() * slope);
+    const Vector6 head_by_pose = pose.row(v).transpose();
+    const double linear = wet & (1 << j) ? 1.0 / 12.0 : 0.0;
+    for (int i = 0; i < 3; ++i)
+      by_pose[i] += m[i].v[j] * depth_by_pose + (m[i].v[3 + j] - (i == j ? 2.0 : 1.0) * linear) * head_by_pose;
   }
+  const Vector3 S = effective(panel.S_B, R.row(2));
+  sum.topRows<3>() += S * (by_pose[0] + by_pose[1] + by_pose[2]).transpose();
+  for (int i = 0; i < 3; ++i) sum.bottomRows<3>() += r_[panel.corner[i]].cross(S) * by_pose[i].transpose();
 }
 
 void Hydrostatics::add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const {
@@ -335,20 +345,9 @@ void Hydrostatics::add_jacobian(const Instant& now, double h, Memory m, Jacobian
   const Vector3 k = R.row(2);
   Samples s = reachable(now, m);
   sample(now, model_, true, m, s);
-  differentiate_panels(s, now);
-
-  // Chain to the pose: d(value at a vertex) = g_W . dp + (r x g_B) . dtheta.
-  Matrix6 K = Matrix6::Zero();
-  for (std::size_t i = 0; i < s.depth.size(); ++i) {
-    const Eigen::Map<const Vector6> by_depth(&s.sensitivity[12 * i]), by_head(&s.sensitivity[12 * i + 6]);
-    const auto add = [&](const Vector6& by, const Vector3& g_W) {
-      Vector6 row;
-      row << g_W, r_[i].cross(R.transpose() * g_W);
-      K.noalias() += by * row.transpose();
-    };
-    if (!by_head.isZero(0.0)) add(by_head, Vector3(s.head_x[i], s.head_y[i], s.head_z[i]));
-    if (!by_depth.isZero(0.0)) add(by_depth, Vector3(s.depth_x[i], s.depth_y[i], -1.0));
-  }
+  differentiate_heads(R, s);
+  Matrix6 K = linear_sensitivity(s, k);
+  for_cut_panels(s, now, [&](const Panel& panel, int wet) { add_cut_panel(s, panel, R, wet, K); });
 
   const HeadIntegral I = integrate(s, now);
   if (model_ == FroudeKrylov::volume) {
@@ -408,8 +407,8 @@ Mesh build_hull_mesh(const HullSpec& hull, std::string* mended) {
     const double area = 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
     return box_mesh(s, hull.centre, hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(area));
   }
-  const Mesh mesh = read_mesh(
-      hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend}, mended);
+  const Mesh mesh =
+      read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend}, mended);
   const double panel = hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(properties_of(mesh).area);
   return refined_mesh(mesh, panel * std::numbers::sqrt2);
 }
