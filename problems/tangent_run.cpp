@@ -36,10 +36,11 @@ Lift lift_like(const Case& c, const Condition& condition, const Lift& base) {
   return {model, std::make_shared<const Operation>(build_operation_like(*model, *base.model, *base.operation))};
 }
 
+bool of_phase(const std::string& key) { return key.starts_with("operation.phases."); }
+
 // A key of the operation's timing leaves the model and every pose as they are.
 bool is_timing(const std::string& key, const Case& base, const Case& changed) {
-  return key.starts_with("operation.phases.") &&
-         same_poses(base.specification.operation, changed.specification.operation);
+  return of_phase(key) && same_poses(base.specification.operation, changed.specification.operation);
 }
 
 LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double range, const Condition& condition) {
@@ -59,10 +60,12 @@ LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double
     return std::nullopt;
   };
   bool timing = false;
-  try {
-    timing = is_timing(key, c, with_values(c, {{key, x + kHalfWidth * scale}}));
-  } catch (const CaseError&) {
-    timing = is_timing(key, c, with_values(c, {{key, x - kHalfWidth * scale}}));
+  if (of_phase(key)) {  // reading the case again is most of what a twin costs
+    try {
+      timing = is_timing(key, c, with_values(c, {{key, x + kHalfWidth * scale}}));
+    } catch (const CaseError&) {
+      timing = is_timing(key, c, with_values(c, {{key, x - kHalfWidth * scale}}));
+    }
   }
   const double half = (timing ? kHalfWidthOfTiming : kHalfWidth) * scale;
   std::optional<Lift> low = try_at(x - half), high = try_at(x + half);

@@ -190,13 +190,14 @@ void TangentPass::differentiate(std::span<const Part> parts, SystemState& state,
       if (by == 0.0) break;
       hht_->displaced(state, j, sign * by, moved_);
       for (const Part& part : parts) {
+        if (!part.due) continue;
         board_.measure(part.source, part.index, moved_, work_);
         add(part, board_, sign / (2.0 * by));
       }
     }
     if (!has_twin(j)) continue;
     for (const Part& part : parts) {
-      if (!depends_directly(j, part)) continue;
+      if (!part.due || !depends_directly(j, part)) continue;
       for (int side = 0; side < 2; ++side) {
         Lift& lift = lifts_[static_cast<std::size_t>(j)][side];
         moved_ = state;
@@ -247,12 +248,15 @@ bool TangentPass::note(SystemState& state, double h, const Recorder& recorder, c
     out_.extremes.emplace_back(out_.channels.size(), Tangents::OfExtreme{none, none});
   }
   const std::size_t phase = static_cast<std::size_t>(std::max(0, clock.phase()));
-  bool extreme = false;
-  for (const int channel : out_.channels) {
-    const Extreme& e = run_.extremes[phase][static_cast<std::size_t>(channel)];
-    extreme = extreme || e.t_min == state.t || e.t_max == state.t;
+  bool any = false;
+  for (Part& part : parts_) {
+    part.due = sample || std::ranges::any_of(part.channels, [&](int channel) {
+                 const Extreme& e = run_.extremes[phase][static_cast<std::size_t>(channel)];
+                 return e.t_min == state.t || e.t_max == state.t;
+               });
+    any = any || part.due;
   }
-  if (!sample && !extreme) return true;
+  if (!any) return true;
   differentiate(parts_, state, slope_);
   for (std::size_t k = 0; k < out_.channels.size(); ++k) {
     const auto row = slope_.row(static_cast<Eigen::Index>(k));
@@ -274,9 +278,7 @@ void TangentPass::close(const SystemState& state, bool completed) {
     out_.values.push_back(Eigen::Map<const RowMajor>(values.data(), rows, p));
   }
   out_.end = state;
-  const StateTangent& end = hht_->tangent();
-  out_.end_state.resize(state_directions(model_.system()), p);
-  out_.end_state << end.body.xi, end.body.u, end.element_state;
+  out_.end_state = hht_->state_change();
 }
 
 }  // namespace stillhook

@@ -29,6 +29,7 @@ class TangentPass {
     int index;
     std::vector<int> wanted;    // places in the request: rows of the slopes
     std::vector<int> channels;  // of the board, one for each
+    bool due = true;            // at this instant
   };
   struct Lift {  // one side of a twin
     std::unique_ptr<ChannelBoard> board;
@@ -43,7 +44,7 @@ class TangentPass {
   std::array<SystemState, 2> moved_both_ways(const SystemState& base, const VectorX& change, double width) const;
   void drives_at(double t);
   bool depends_directly(int j, const Part& part) const;
-  /// Fills `out` (rows as the parts say, x directions).
+  /// Fills `out` (rows as the parts that are due say, x directions).
   void differentiate(std::span<const Part> parts, SystemState& state, MatrixX& out);
   void watch_gap(SystemState& state, double h, const Recorder& recorder, const OperationClock& clock);
 

@@ -57,20 +57,22 @@ HhtTangent::Twin HhtTangent::compare(const MultibodySystem& base, const SystemTw
 HhtTangent::HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins)
     : stepper_(stepper), system_(stepper.system_), forces_(static_cast<int>(system_.bodies.size())) {
   for (const SystemTwin& twin : twins) twins_.push_back(compare(system_, twin));
-  const int n = system_.coordinates(), m = system_.constraints(), p = directions();
-  const auto zero = [p](int rows) { return MatrixX(MatrixX::Zero(rows, p)); };
-  now_.body.xi = now_.body.u = now_.acceleration = now_.jerk = now_.F0 = zero(n);
-  now_.lambda = constraint_ = zero(m);
-  now_.element_state = state_explicit_ = zero(system_.element_state_size());
-  from_.xi = from_.u = E_ = a_start_ = zero(n);
-  rhs_ = y_ = zero(n + m);
-  of_history_.assign(static_cast<std::size_t>(system_.element_state_size()), false);
+  const int states = system_.element_state_size();
+  explicit_.assign(twins_.size(), {VectorX::Zero(system_.coordinates()), VectorX::Zero(system_.constraints()),
+                                   VectorX::Zero(states), false});
+  by_drive_.resize(system_.elements.size());
+  column_.assign(twins_.size(), -1);
+  of_history_.assign(static_cast<std::size_t>(states), false);
   for (std::size_t e = 0; e < system_.elements.size(); ++e)
     if (system_.elements[e]->has_history())
       std::fill_n(of_history_.begin() + system_.state_offset(static_cast<int>(e)), system_.elements[e]->state_size(),
                   true);
-  change_ = VectorX::Zero(system_.element_state_size());
+  change_ = VectorX::Zero(states);
+  for (std::size_t e = 0; e < system_.elements.size(); ++e)
+    if (system_.elements[e]->drive() >= 0) driven_.push_back(static_cast<int>(e));
   scratch_ = system_.make_workspace().element_scratch;
+  displaced_.element_state.resize(static_cast<std::size_t>(states));
+  low_state_.resize(static_cast<std::size_t>(states));
 }
 
 bool HhtTangent::differs(int j, int element) const {
@@ -80,7 +82,13 @@ bool HhtTangent::differs(int j, int element) const {
 
 void HhtTangent::start(const SystemState& base, std::vector<std::array<SystemState, 2>> starts) {
   mass_ = &system_.mass(base.phase);
-  for (int j = 0; j < directions(); ++j) {
+  const int p = directions();
+  const auto zero = [p](int rows) { return MatrixX(MatrixX::Zero(rows, p)); };
+  now_.body.xi = now_.body.u = now_.acceleration = now_.jerk = now_.F0 = zero(system_.coordinates());
+  now_.lambda = zero(system_.constraints());
+  now_.element_state = zero(system_.element_state_size());
+  std::vector<int> live;
+  for (int j = 0; j < p; ++j) {
     const Twin& twin = twins_[j];
     const double w = twin.of.width;
     for (int side = 0; side < 2; ++side) {
@@ -104,6 +112,34 @@ void HhtTangent::start(const SystemState& base, std::vector<std::array<SystemSta
         if (of_history_[k])
           now_.element_state(static_cast<Eigen::Index>(k), j) += sign * (s.element_state[k] - base.element_state[k]);
     }
+    const auto moves = [j](const MatrixX& part) { return !part.col(j).isZero(0.0); };
+    if (twin.mass || twin.bodies || twin.joints || moves(now_.body.xi) || moves(now_.body.u) ||
+        moves(now_.acceleration) || moves(now_.jerk) || moves(now_.F0) || moves(now_.lambda) ||
+        moves(now_.element_state))
+      live.push_back(j);
+  }
+  keep_columns(live);
+}
+
+void HhtTangent::keep_columns(const std::vector<int>& directions) {
+  for (MatrixX* part :
+       {&now_.body.xi, &now_.body.u, &now_.acceleration, &now_.jerk, &now_.F0, &now_.lambda, &now_.element_state})
+    *part = MatrixX((*part)(Eigen::all, directions));
+  live_ = directions;
+  for (std::size_t c = 0; c < live_.size(); ++c) column_[live_[c]] = static_cast<int>(c);
+}
+
+// Directions that change something for the first time in this step get their column.
+void HhtTangent::wake() {
+  for (int j = 0; j < directions(); ++j) {
+    if (column_[j] >= 0 || !explicit_[j].any) continue;
+    column_[j] = static_cast<int>(live_.size());
+    live_.push_back(j);
+    for (MatrixX* part :
+         {&now_.body.xi, &now_.body.u, &now_.acceleration, &now_.jerk, &now_.F0, &now_.lambda, &now_.element_state}) {
+      part->conservativeResize(Eigen::NoChange, column_[j] + 1);
+      part->col(column_[j]).setZero();
+    }
   }
 }
 
@@ -120,12 +156,12 @@ void HhtTangent::follow_mass() {
   const VectorX after = solver.solve(*mass_ * before_.acceleration);
   MatrixX rhs = *mass_ * now_.acceleration;
   for (int j = 0; j < directions(); ++j) {
-    if (!twins_[j].mass) continue;
+    if (!twins_[j].mass) continue;  // else it has a column from the start
     const SystemTwin& of = twins_[j].of;
     const auto change = [&](int phase) {
       return MatrixX((of.system[1]->mass(phase) - of.system[0]->mass(phase)) / of.width);
     };
-    rhs.col(j) += change(phase_) * before_.acceleration - change(before_.phase) * after;
+    rhs.col(column_[j]) += change(phase_) * before_.acceleration - change(before_.phase) * after;
   }
   now_.acceleration = solver.solve(rhs);
   now_.jerk.setZero();
@@ -158,6 +194,7 @@ void HhtTangent::solve(const SystemState& middle, double h) {
   s.next_ = middle;
   system_.constraint_jacobian(s.next_, s.C_q_);
   s.factorise(h);
+  rhs_.resize(n + m, E_.cols());
   rhs_.topRows(n) = E_ - (al / (1.0 + al)) * now_.F0;
   rhs_.topRows(n).noalias() += s.work_.jacobian.stiffness() * now_.body.xi;
   rhs_.topRows(n).noalias() += s.work_.jacobian.damping() * now_.body.u;
@@ -170,8 +207,8 @@ void HhtTangent::solve(const SystemState& middle, double h) {
     const VectorX inertia =
         ((of.system[1]->mass(middle.phase) - of.system[0]->mass(middle.phase)) * middle.acceleration) /
         ((1.0 + al) * of.width);
-    rhs_.col(j).head(n) -= inertia;
-    now_.F0.col(j) += inertia;
+    rhs_.col(column_[j]).head(n) -= inertia;
+    now_.F0.col(column_[j]) += inertia;
   }
   y_ = s.lu_.solve(rhs_);
   now_.acceleration = y_.topRows(n);
@@ -193,37 +230,57 @@ void HhtTangent::end(SystemState& state, double h, const TwinDrives& drives_befo
   // The converged state as the elements saw it in the step: their memories still belong to its beginning.
   middle_ = state;
   middle_.element_state = before_.element_state;
-  predict(h);
-  E_.setZero();
-  constraint_.setZero();
-  state_explicit_.setZero();
-  add_history(h);
   add_explicit(h, drives_before, drives);
+  wake();
+  if (live_.empty()) return;
+  predict(h);
+  const Eigen::Index columns = static_cast<Eigen::Index>(live_.size());
+  E_.resize(system_.coordinates(), columns);
+  constraint_.resize(system_.constraints(), columns);
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    E_.col(c) = explicit_[live_[c]].force;
+    constraint_.col(c) = explicit_[live_[c]].constraint;
+  }
+  add_history(h);
   solve(middle_, h);
   advance_states(h);
 }
 
 double HhtTangent::growth(const VectorX& scale) const {
   double largest = 0.0;
-  for (int j = 0; j < directions(); ++j)
-    largest = std::max(largest, scale[j] * now_.body.xi.col(j).cwiseAbs().maxCoeff());
+  for (std::size_t c = 0; c < live_.size(); ++c)
+    largest = std::max(largest, scale[live_[c]] * now_.body.xi.col(static_cast<Eigen::Index>(c)).cwiseAbs().maxCoeff());
   return largest;
+}
+
+MatrixX HhtTangent::state_change() const {
+  const int n = system_.coordinates();
+  MatrixX all = MatrixX::Zero(2 * n + system_.element_state_size(), directions());
+  for (std::size_t k = 0; k < live_.size(); ++k) {
+    const Eigen::Index c = static_cast<Eigen::Index>(k);
+    all.col(live_[k]) << now_.body.xi.col(c), now_.body.u.col(c), now_.element_state.col(c);
+  }
+  return all;
 }
 
 double HhtTangent::small_step(int j) const {
   constexpr double kSmall = 1e-5;  // m, rad: rounding and curvature are both below 1e-8 of a force law's change
-  double size = std::max(now_.body.xi.col(j).cwiseAbs().maxCoeff(), now_.body.u.col(j).cwiseAbs().maxCoeff());
-  if (now_.element_state.rows() > 0) size = std::max(size, now_.element_state.col(j).cwiseAbs().maxCoeff());
+  const int c = column_[j];
+  if (c < 0) return 0.0;
+  double size = std::max(now_.body.xi.col(c).cwiseAbs().maxCoeff(), now_.body.u.col(c).cwiseAbs().maxCoeff());
+  if (now_.element_state.rows() > 0) size = std::max(size, now_.element_state.col(c).cwiseAbs().maxCoeff());
   return size > 0.0 && std::isfinite(size) ? kSmall / size : 0.0;
 }
 
 void HhtTangent::displaced(const SystemState& state, int j, double by, SystemState& out) const {
+  const int c = column_[j];
   out = state;
-  displace_bodies(now_.body, j, by, out.body);
+  if (c < 0) return;
+  displace_bodies(now_.body, c, by, out.body);
   for (std::size_t k = 0; k < out.element_state.size(); ++k)
-    out.element_state[k] += by * now_.element_state(static_cast<Eigen::Index>(k), j);
-  out.lambda += by * now_.lambda.col(j);
-  out.acceleration += by * now_.acceleration.col(j);
+    out.element_state[k] += by * now_.element_state(static_cast<Eigen::Index>(k), c);
+  out.lambda += by * now_.lambda.col(c);
+  out.acceleration += by * now_.acceleration.col(c);
 }
 
 }  // namespace stillhook

@@ -14,6 +14,9 @@
 // second order in the width, is neither amplified by the integration nor blurred by the tolerance of Newton's method.
 // (Serban & Hindmarsh 2005 for the method; Bruls & Eberhard 2008 for multibody systems.)
 //
+// Causality saves work: a direction has a column only from the step on in which it first changes anything, such as the
+// speed of a later phase, or the gain of a line that is not connected yet.
+//
 // Where a law jumps (case C of a tagline, a touch) the derivative is that of the branch the run took.
 #pragma once
 
@@ -30,7 +33,7 @@ struct SystemTwin {
   double width = 1.0;  // in the parameter's unit
 };
 
-/// Derivatives of a state, a column each direction, per unit of its parameter.
+/// Derivatives of a state per unit of the parameters, a column each direction that has changed anything yet.
 struct StateTangent {
   BodyChange body;
   MatrixX acceleration, jerk, F0;  // as SystemState::acceleration and the members of HhtStepper
@@ -45,7 +48,8 @@ class HhtTangent {
   HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins);
 
   int directions() const { return static_cast<int>(twins_.size()); }
-  const StateTangent& tangent() const { return now_; }
+  /// Derivatives of the state, rows (xi, u, element states), a column each direction.
+  MatrixX state_change() const;
   const SystemTwin& twin(int j) const { return twins_[j].of; }
   /// True if the forces of this element of direction j differ from the base's.
   bool differs(int j, int element) const;
@@ -61,7 +65,7 @@ class HhtTangent {
   using TwinDrives = std::vector<std::array<std::vector<DriveState>, 2>>;
   void end(SystemState& state, double h, const TwinDrives& drives_before, const TwinDrives& drives);
 
-  /// Largest change of a body, m or rad, of all directions with column j times scale[j].
+  /// Largest change of a body, m or rad, of all directions, that of direction j times scale[j].
   double growth(const VectorX& scale) const;
 
   /// The state moved along direction j by `by` (in the parameter's unit): bodies, element states and lambda; drives are
@@ -79,7 +83,20 @@ class HhtTangent {
   };
   using SideDrives = std::array<std::vector<DriveState>, 2>;
 
+  /// What changes at a step without going through the unknowns, of one direction.
+  struct Explicit {
+    VectorX force, constraint, state;  // E, C', of the elements' states by their own parameters
+    bool any = false;                  // of them is not zero
+  };
+  /// How the force of an element changes with its drive.
+  struct ByDrive {
+    VectorX position, rate;
+    bool known = false;  // in this step
+  };
+
   static Twin compare(const MultibodySystem& base, const SystemTwin& twin);
+  void keep_columns(const std::vector<int>& directions);
+  void wake();
   void follow_mass();
   void predict(double h);
   void solve(const SystemState& middle, double h);
@@ -88,11 +105,13 @@ class HhtTangent {
   void history_by_differences(double h);
   void add_explicit(double h, const TwinDrives& before, const TwinDrives& now);
   void add_element(int element, int j, double h, const SideDrives& before, const SideDrives& now);
+  void add_drive(int element, int j, double h, const SideDrives& now);
+  const ByDrive& by_drive(int element, double h);
   void add_bodies(int j);
   void advance_states(double h);
   void states_by_differences(double h);
-  void begin_displaced(int j, double by, double h);
-  double differences_by(int j, const BodyChange& bodies) const;
+  void begin_displaced(Eigen::Index column, double by, double h);
+  double differences_by(Eigen::Index column, const BodyChange& bodies) const;
 
   HhtStepper& stepper_;
   const MultibodySystem& system_;
@@ -101,12 +120,19 @@ class HhtTangent {
   int phase_ = 0;
   double last_h_ = 0.0;  // the stepper's, before the step
 
+  std::vector<int> live_;    // the direction of every column
+  std::vector<int> column_;  // the column of every direction, -1: it is zero
   StateTangent now_;
-  BodyChange from_;         // of the bodies at the beginning of the step
-  MatrixX a_start_;         // of the acceleration that the step starts from
-  MatrixX E_;               // forces that do not go through a1
-  MatrixX constraint_;      // C'
-  MatrixX state_explicit_;  // of the elements' states by their own parameters
+  BodyChange from_;                 // of the bodies at the beginning of the step
+  MatrixX a_start_;                 // of the acceleration that the step starts from
+  std::vector<Explicit> explicit_;  // [direction]
+  std::vector<ByDrive> by_drive_;   // [element]
+  std::vector<int> driven_;         // elements with a drive
+  std::vector<DriveState> drives_;
+  VectorX low_force_;              // of an element, on a twin's lower side
+  std::vector<double> low_state_;  // of all elements
+  MatrixX E_;                      // forces that do not go through a1
+  MatrixX constraint_;             // C'
   MatrixX rhs_, y_;
   SystemState before_, middle_, displaced_;
   std::vector<BodyKinematics> to_;
@@ -117,7 +143,7 @@ class HhtTangent {
   ForceSum forces_;
 };
 
-/// The bodies moved along direction j by `by`.
-void displace_bodies(const BodyChange& change, int j, double by, std::vector<BodyKinematics>& bodies);
+/// The bodies moved along column j by `by`.
+void displace_bodies(const BodyChange& change, Eigen::Index j, double by, std::vector<BodyKinematics>& bodies);
 
 }  // namespace stillhook

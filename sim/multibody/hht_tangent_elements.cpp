@@ -7,10 +7,10 @@
 namespace stillhook {
 
 namespace {
-constexpr double kSmall = 1e-5;  // m, rad, m/s: displacement for the differences of one element
+constexpr double kSmall = 1e-5;  // m, rad, m/s, or a drive's unit: displacement for the differences of one element
 }
 
-void displace_bodies(const BodyChange& change, int j, double by, std::vector<BodyKinematics>& bodies) {
+void displace_bodies(const BodyChange& change, Eigen::Index j, double by, std::vector<BodyKinematics>& bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const int r = 6 * static_cast<int>(i);
     BodyKinematics& b = bodies[i];
@@ -37,8 +37,8 @@ void HhtTangent::add_history(double h) {
   if (!differenced_.empty()) history_by_differences(h);
 }
 
-// Moves the beginning of the step along direction j by `by` and lets the elements begin it there.
-void HhtTangent::begin_displaced(int j, double by, double h) {
+// Moves the beginning of the step along column j by `by` and lets the elements begin it there.
+void HhtTangent::begin_displaced(Eigen::Index j, double by, double h) {
   displaced_ = before_;
   displace_bodies(from_, j, by, displaced_.body);
   for (const int e : differenced_) {
@@ -48,8 +48,8 @@ void HhtTangent::begin_displaced(int j, double by, double h) {
   }
 }
 
-// How far the differences may go along direction j.
-double HhtTangent::differences_by(int j, const BodyChange& bodies) const {
+// How far the differences may go along column j.
+double HhtTangent::differences_by(Eigen::Index j, const BodyChange& bodies) const {
   double size = std::max(bodies.xi.col(j).cwiseAbs().maxCoeff(), bodies.u.col(j).cwiseAbs().maxCoeff());
   for (const int e : differenced_)
     if (const int states = system_.elements[e]->state_size(); states > 0)
@@ -58,7 +58,7 @@ double HhtTangent::differences_by(int j, const BodyChange& bodies) const {
 }
 
 void HhtTangent::history_by_differences(double h) {
-  for (int j = 0; j < directions(); ++j) {
+  for (Eigen::Index j = 0; j < E_.cols(); ++j) {
     const double by = differences_by(j, from_);
     if (by == 0.0) continue;
     for (const double sign : {-1.0, 1.0}) {
@@ -73,42 +73,98 @@ void HhtTangent::history_by_differences(double h) {
 }
 
 void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDrives& now) {
+  for (ByDrive& derivative : by_drive_) derivative.known = false;
   for (int j = 0; j < directions(); ++j) {
-    const auto& drives = now[static_cast<std::size_t>(j)];
-    const auto moves = [&](int d) {
-      return drives[0][d].position != drives[1][d].position || drives[0][d].rate != drives[1][d].rate;
-    };
-    for (std::size_t k = 0; k < system_.elements.size(); ++k) {
-      const int e = static_cast<int>(k), d = system_.elements[k]->drive();
-      if (differs(j, e) || (d >= 0 && moves(d))) add_element(e, j, h, before[static_cast<std::size_t>(j)], drives);
+    Explicit& sum = explicit_[j];
+    if (sum.any) {
+      sum.force.setZero();
+      sum.constraint.setZero();
+      sum.state.setZero();
+      sum.any = false;
     }
-    if (twins_[j].bodies || twins_[j].joints) add_bodies(j);
+    const Twin& twin = twins_[j];
+    const SideDrives& drives = now[static_cast<std::size_t>(j)];
+    for (const int e : twin.elements) add_element(e, j, h, before[static_cast<std::size_t>(j)], drives);
+    for (const int e : driven_) {
+      const std::size_t d = static_cast<std::size_t>(system_.elements[e]->drive());
+      if (drives[0][d].position == drives[1][d].position && drives[0][d].rate == drives[1][d].rate) continue;
+      if (differs(j, e)) continue;
+      if (system_.elements[e]->has_history())
+        add_element(e, j, h, before[static_cast<std::size_t>(j)], drives);
+      else
+        add_drive(e, j, h, drives);
+    }
+    if (twin.bodies || twin.joints) add_bodies(j);
+    sum.any = !sum.force.isZero(0.0) || !sum.constraint.isZero(0.0) || !sum.state.isZero(0.0);
   }
 }
 
 void HhtTangent::add_element(int e, int j, double h, const SideDrives& before, const SideDrives& now) {
   Twin& twin = twins_[j];
+  Explicit& sum = explicit_[j];
   const bool differing = differs(j, e);
   const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
   for (int side = 0; side < 2; ++side) {
-    const double sign = (side == 0 ? -1.0 : 1.0) / twin.of.width;
     const ForceElement& element = differing ? *twin.of.system[side]->elements[e] : *system_.elements[e];
-    displaced_.element_state = before_.element_state;
+    std::copy_n(before_.element_state.begin() + first, count, displaced_.element_state.begin() + first);
     const Memory m = system_.memory_in(e, displaced_.element_state, differing ? twin.scratch[side] : scratch_);
     const Instant from{before_.t, before_.body, before[side], before_.phase};
     const Instant to{middle_.t, middle_.body, now[side], middle_.phase};
     element.begin_step(from, h, m);
     forces_.clear();
     element.add_forces(to, h, m, forces_);
-    E_.col(j) += sign * forces_.value();
-    if (!element.has_history()) continue;  // a state that only helps to compute has no derivative worth knowing
-    element.end_step(to, h, m);
-    for (int k = first; k < first + count; ++k) state_explicit_(k, j) += sign * displaced_.element_state[k];
+    if (element.has_history()) element.end_step(to, h, m);
+    if (side > 0) break;
+    low_force_ = forces_.value();
+    std::copy_n(displaced_.element_state.begin() + first, count, low_state_.begin() + first);
   }
+  // The difference first: where both sides agree it is zero and not rounding.
+  sum.force += (forces_.value() - low_force_) / twin.of.width;
+  if (!system_.elements[e]->has_history())
+    return;  // a state that only helps to compute has no derivative worth knowing
+  for (int k = first; k < first + count; ++k)
+    sum.state[k] += (displaced_.element_state[k] - low_state_[k]) / twin.of.width;
+}
+
+const HhtTangent::ByDrive& HhtTangent::by_drive(int e, double h) {
+  ByDrive& derivative = by_drive_[e];
+  if (derivative.known) return derivative;
+  const ForceElement& element = *system_.elements[e];
+  const std::size_t d = static_cast<std::size_t>(element.drive());
+  const int first = system_.state_offset(e), count = element.state_size();
+  drives_ = middle_.drive;
+  std::copy_n(before_.element_state.begin() + first, count, displaced_.element_state.begin() + first);
+  const Memory m = system_.memory_in(e, displaced_.element_state, scratch_);
+  element.begin_step(before_.instant(), h, m);
+  const auto slope = [&](double& value, VectorX& out) {
+    const double at = value;
+    for (const double sign : {-1.0, 1.0}) {
+      value = at + sign * kSmall;
+      forces_.clear();
+      element.add_forces({middle_.t, middle_.body, drives_, middle_.phase}, h, m, forces_);
+      if (sign < 0.0) low_force_ = forces_.value();
+    }
+    out = (forces_.value() - low_force_) / (2.0 * kSmall);
+    value = at;
+  };
+  slope(drives_[d].position, derivative.position);
+  slope(drives_[d].rate, derivative.rate);
+  derivative.known = true;
+  return derivative;
+}
+
+// The drive of an element that is the same on both sides.
+void HhtTangent::add_drive(int e, int j, double h, const SideDrives& now) {
+  const ByDrive& derivative = by_drive(e, h);
+  const std::size_t d = static_cast<std::size_t>(system_.elements[e]->drive());
+  const double width = twins_[j].of.width;
+  explicit_[j].force += ((now[1][d].position - now[0][d].position) / width) * derivative.position +
+                        ((now[1][d].rate - now[0][d].rate) / width) * derivative.rate;
 }
 
 void HhtTangent::add_bodies(int j) {
   const Twin& twin = twins_[j];
+  Explicit& sum = explicit_[j];
   VectorX C;
   MatrixX C_q;
   for (int side = 0; side < 2; ++side) {
@@ -118,14 +174,14 @@ void HhtTangent::add_bodies(int j) {
       const RigidBody& b = system.bodies[i];
       const Vector3& w = middle_.body[i].w_B;
       const int r = 6 * static_cast<int>(i);
-      E_(r + 2, j) -= sign * b.mass * system.gravity;
-      E_.col(j).segment<3>(r + 3) -= sign * w.cross(b.inertia * w);
+      sum.force[r + 2] -= sign * b.mass * system.gravity;
+      sum.force.segment<3>(r + 3) -= sign * w.cross(b.inertia * w);
     }
     if (!twin.joints) continue;
     system.constraint_values(middle_, C);
     system.constraint_jacobian(middle_, C_q);
-    constraint_.col(j) += sign * C;
-    E_.col(j) -= sign * (C_q.transpose() * middle_.lambda);
+    sum.constraint += sign * C;
+    sum.force -= sign * (C_q.transpose() * middle_.lambda);
   }
 }
 
@@ -141,11 +197,12 @@ void HhtTangent::advance_states(double h) {
     if (!element.advance_state_tangent(before, now, h, m, from_, now_.body, rows)) differenced_.push_back(e);
   }
   if (!differenced_.empty()) states_by_differences(h);
-  now_.element_state += state_explicit_;
+  for (std::size_t c = 0; c < live_.size(); ++c)
+    if (explicit_[live_[c]].any) now_.element_state.col(static_cast<Eigen::Index>(c)) += explicit_[live_[c]].state;
 }
 
 void HhtTangent::states_by_differences(double h) {
-  for (int j = 0; j < directions(); ++j) {
+  for (Eigen::Index j = 0; j < E_.cols(); ++j) {
     double by = differences_by(j, from_);
     if (const double now = differences_by(j, now_.body); by == 0.0 || (now > 0.0 && now < by)) by = now;
     if (by == 0.0) continue;
