@@ -28,8 +28,11 @@ class Radiation {
   virtual int scratch_size() const { return 0; }
   /// True if the other gives the same forces from the same motion; false is always safe.
   virtual bool same_as(const Radiation&) const { return false; }
-  /// True if begin_step and end_step are linear in (state, V) as they stand, so that they advance a tangent as well.
+  /// True if begin_step and end_step are linear in (state, V), so that they advance a tangent as well: with the clock
+  /// of the motion in the place of its own.
   virtual bool linear_in_state() const { return false; }
+  /// The first entries of the state that only say when, and do not depend on the motion.
+  virtual int clock_size() const { return 0; }
 
   /// A motion that was at rest until just now and has velocity V at this instant.
   virtual void start(std::span<const double> /*V*/, Memory) const {}

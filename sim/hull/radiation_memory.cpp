@@ -12,7 +12,7 @@ constexpr double kOnNode = 1e-9;
 }  // namespace
 
 RadiationMemory::RadiationMemory(const RetardationFunctions& kernels, int modes)
-    : Radiation(modes), interval_(kernels.interval), capacity_(2) {
+    : Radiation(modes), interval_(kernels.interval), capacity_(2), force_unit_(modes, 0.0) {
   for (const RetardationKernel& kernel : kernels.kernels) {
     if (std::all_of(kernel.value.begin(), kernel.value.end(), [](double k) { return k == 0.0; })) continue;
     Pair pair{kernel.i, kernel.j, kernel.value, {}, 0.0, 0.0};
@@ -26,11 +26,12 @@ RadiationMemory::RadiationMemory(const RetardationFunctions& kernels, int modes)
           m == 0 ? interval_ * (2.0 * here + older) / 6.0 : interval_ * (newer + 4.0 * here + older) / 6.0;
     }
     capacity_ = std::max(capacity_, nodes);
+    for (const double K : pair.K) force_unit_[pair.i] = std::max(force_unit_[pair.i], std::abs(K));
     pairs_.push_back(std::move(pair));
   }
   layout_.head = 0;
   layout_.offset = 1;
-  layout_.sum = 2;
+  layout_.sum = clock_size();
   layout_.moment = layout_.sum + modes;
   layout_.at_node = layout_.moment + modes;
   layout_.at_next = layout_.at_node + modes;
@@ -89,6 +90,10 @@ double RadiationMemory::convolve_shifted(const Pair& pair, const double* state, 
   return interval_ / 6.0 * sum;
 }
 
+double RadiationMemory::stored_force(const double* state, int i, double f) const {
+  return force_unit_[i] * ((1.0 - f) * state[layout_.at_node + i] + f * state[layout_.at_next + i]);
+}
+
 double RadiationMemory::history_far_ahead(const Pair& pair, const double* state, double u) const {
   const int q = static_cast<int>(u + kOnNode);
   const double f = std::max(0.0, u - q);
@@ -112,8 +117,7 @@ void RadiationMemory::begin_step(double h, Memory m, std::span<double> past, std
   // Up to one interval after the node the two stored sums serve.
   const bool stored = u <= 1.0 + kOnNode;
   const double f = std::min(u, 1.0);
-  for (int i = 0; i < modes(); ++i)
-    past[i] = stored ? -(1.0 - f) * state[layout_.at_node + i] - f * state[layout_.at_next + i] : 0.0;
+  for (int i = 0; i < modes(); ++i) past[i] = stored ? -stored_force(state, i, f) : 0.0;
   for (const Pair& pair : pairs_) {
     double of_new, of_old;
     cell_integrals(pair, h, of_new, of_old);
@@ -131,7 +135,7 @@ void RadiationMemory::begin_step(double h, Memory m, std::span<double> past, std
 void RadiationMemory::force(std::span<const double>, Memory m, std::span<double> F) const {
   const double* state = m.state.data();
   const double offset = state[layout_.offset], f = offset / interval_;
-  for (int i = 0; i < modes(); ++i) F[i] = -(1.0 - f) * state[layout_.at_node + i] - f * state[layout_.at_next + i];
+  for (int i = 0; i < modes(); ++i) F[i] = -stored_force(state, i, f);
   if (offset <= 0.0) return;
   for (const Pair& pair : pairs_) {
     const double K_now = pair.K[0], K_node = kernel(pair, offset);
@@ -152,8 +156,9 @@ void RadiationMemory::add_node(const double* V, double* state) const {
   }
   for (const Pair& pair : pairs_) {
     const double before = state[layout_.ring + pair.j * capacity_ + old_head];
-    state[layout_.at_node + pair.i] += pair.cell_new * V[pair.j] + pair.cell_old * before;
-    state[layout_.at_next + pair.i] += convolve(pair, state);
+    const double unit = force_unit_[pair.i];
+    state[layout_.at_node + pair.i] += (pair.cell_new * V[pair.j] + pair.cell_old * before) / unit;
+    state[layout_.at_next + pair.i] += convolve(pair, state) / unit;
   }
 }
 

@@ -32,6 +32,8 @@ class RadiationMemory final : public Radiation {
     const auto* o = dynamic_cast<const RadiationMemory*>(&other);
     return o && o->interval_ == interval_ && o->pairs_ == pairs_;
   }
+  bool linear_in_state() const override { return true; }
+  int clock_size() const override { return 2; }
   int state_size() const override { return layout_.size; }
   void start(std::span<const double> V, Memory m) const override;
   void begin_step(double h, Memory m, std::span<double> past, std::span<double> D) const override;
@@ -47,7 +49,8 @@ class RadiationMemory final : public Radiation {
     double cell_new, cell_old;    // int over one interval of K against the falling and the rising line
     bool operator==(const Pair&) const = default;
   };
-  /// Where things lie in the state.
+  /// Where things lie in the state. Forces, at_node and at_next, are kept as multiples of force_unit_, so that all of
+  /// it is of the order of a motion and small differences of states can be taken with one width.
   struct Layout {
     int head, offset, sum, moment, at_node, at_next, velocity, ring, size;
   };
@@ -57,11 +60,14 @@ class RadiationMemory final : public Radiation {
   void cell_integrals(const Pair& pair, double h, double& of_new, double& of_old) const;
   double convolve(const Pair& pair, const double* state) const;
   double convolve_shifted(const Pair& pair, const double* state, int shift) const;
+  /// I_f of mode i, f in 0 .. 1, from the two that are kept.
+  double stored_force(const double* state, int i, double f) const;
   double history_far_ahead(const Pair& pair, const double* state, double u) const;
   void add_node(const double* V, double* state) const;
 
   double interval_;
-  int capacity_;  // nodes in the ring
+  int capacity_;                    // nodes in the ring
+  std::vector<double> force_unit_;  // N/m ..., the largest K of a mode
   std::vector<Pair> pairs_;
   Layout layout_;
 };
