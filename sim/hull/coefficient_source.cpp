@@ -23,6 +23,7 @@ namespace {
 
 // Changes whenever the same input would give other numbers.
 constexpr const char* kMethodVersion = "rankine 2";
+constexpr const char* kMethodOfMeshes = "triangles to the diagonal";
 constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
 
 using Set = std::shared_ptr<const HydrodynamicCoefficients>;
@@ -63,6 +64,7 @@ std::string key_of(const std::vector<PanelHull>& hulls, const PanelMethodOptions
     hash.add(hull.waterline);
     hash.add(hull.box_size);
     hash.add(hull.box_centre);
+    if (!(hull.box_size.minCoeff() > 0.0)) hash.add(std::string(kMethodOfMeshes));
     for (const Vector3& vertex : hull.mesh.vertices) hash.add(vertex);
     for (const auto& triangle : hull.mesh.triangles) hash.add(triangle.data(), sizeof triangle);
     if (hulls.size() == 1) break;
@@ -113,8 +115,7 @@ Set read_table(const std::string& path) {
 
 Set read_file(const BodySpec& body, const HullAfloat& hull, const SeaSpec& sea) {
   const HydrodynamicsSpec& h = body.hydrodynamics;
-  if (h.kind == HydrodynamicsSpec::Kind::table)
-    return read_table(h.coefficient_file);
+  if (h.kind == HydrodynamicsSpec::Kind::table) return read_table(h.coefficient_file);
   const MeshProperties size = properties_of(*hull.mesh);
   DatabaseOptions options;
   // WAMIT's files hold no volume: that of the hull as it floats, so that only BEMIO's can differ from it.
@@ -199,8 +200,7 @@ void check(const Set& set, const PanelMethodSpec& method, std::vector<std::strin
     return e.set.lock() == set && e.accepted == method.accepted_checks;
   });
   if (entry == known.end())
-    entry = known.insert(known.end(),
-                         {set, method.accepted_checks, accepted_failures(*set, method.accepted_checks)});
+    entry = known.insert(known.end(), {set, method.accepted_checks, accepted_failures(*set, method.accepted_checks)});
   warnings.insert(warnings.end(), entry->failures.begin(), entry->failures.end());
 }
 

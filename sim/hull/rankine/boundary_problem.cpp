@@ -131,8 +131,8 @@ BoundarySizes sizes_of(const HullPanels& hulls, const SurfacePanels& surface) {
   sizes.surface = surface.size();
   sizes.classes = static_cast<int>(parities(hulls.symmetry).size());
   const double h = sizes.hull, f = sizes.surface;
-  // N; C, R and the kernels they come from; responses and kernels of the hull.
-  sizes.bytes = 8.0 * sizes.classes * (f * f + 5.0 * f * h + 6.0 * h * h);
+  // N; C, what it comes from, R and the kernel D of the hull at the surface; responses and kernels of the hull.
+  sizes.bytes = 8.0 * sizes.classes * (f * f + 4.0 * f * h + 6.0 * h * h);
   return sizes;
 }
 
@@ -154,9 +154,9 @@ std::vector<BoundaryClass> limit_problem(const HullPanels& hulls) {
 std::vector<BoundaryClass> boundary_problem(const HullPanels& hulls, const SurfacePanels& surface) {
   const std::vector<Vector3> on_hull = centroids(hulls);
   std::vector<BoundaryClass> classes(parities(hulls.symmetry).size());
-  const Kernels even = hull_kernels(on_hull, hulls, 1), odd = hull_kernels(on_hull, hulls, -1);
-  const Kernels at_surface = hull_kernels(surface.point, hulls, 0);
-  const std::vector<MatrixX> S_HF = surface_kernels(on_hull, surface, hulls.symmetry);
+  Kernels even = hull_kernels(on_hull, hulls, 1), odd = hull_kernels(on_hull, hulls, -1);
+  Kernels at_surface = hull_kernels(surface.point, hulls, 0);
+  std::vector<MatrixX> S_HF = surface_kernels(on_hull, surface, hulls.symmetry);
   std::vector<MatrixX> S_FF = surface_kernels(surface.point, surface, hulls.symmetry);
   const std::vector<Parity> parity = parities(hulls.symmetry);
 #pragma omp parallel for schedule(dynamic, 1)
@@ -166,11 +166,18 @@ std::vector<BoundaryClass> boundary_problem(const HullPanels& hulls, const Surfa
     Eigen::PartialPivLU<MatrixX> lu;
     result.hull_response = solved(even.D[c], even.S[c], &lu);
     result.local = solved(odd.D[c], odd.S[c]);
+    // Memory is what limits the number of panels: matrices are made in the place of those they come from.
+    for (MatrixX* kernel : {&even.S[c], &even.D[c], &odd.S[c], &odd.D[c]}) *kernel = MatrixX();
     result.C = 2.0 * lu.solve(S_HF[c]);
+    S_HF[c] = MatrixX();
     result.N = std::move(S_FF[c]);
     result.N.noalias() += at_surface.D[c] * result.C;
     result.N /= kTwoPi;
-    result.R = (at_surface.D[c] * result.hull_response - at_surface.S[c]) / kTwoPi;
+    result.R = std::move(at_surface.S[c]);
+    result.R *= -1.0;
+    result.R.noalias() += at_surface.D[c] * result.hull_response;
+    result.R /= kTwoPi;
+    at_surface.D[c] = MatrixX();
   }
   return classes;
 }

@@ -110,12 +110,14 @@ Layout place(const std::vector<PanelHull>& hulls) {
 HullPanels panels_of(const std::vector<PanelHull>& hulls, const Layout& layout, double panel_length) {
   HullPanels all;
   all.symmetry = layout.symmetry;
+  // A triangle is half of a square of the panel length, cut along its diagonal.
+  const double longest_edge = std::min(std::numbers::sqrt2 * panel_length, std::numeric_limits<double>::max());
   for (std::size_t k = 0; k < hulls.size(); ++k) {
     const Placement& p = layout.hulls[k];
     try {
       HullPanels one = is_box(hulls[k])
                            ? unfolded(box_panels(p.length, p.breadth, p.draft, panel_length), layout.symmetry)
-                           : mesh_panels(p.mesh, hulls[k].waterline, panel_length, layout.symmetry);
+                           : mesh_panels(p.mesh, hulls[k].waterline, longest_edge, layout.symmetry);
       one = moved(std::move(one), p, layout.symmetry.y, static_cast<int>(k));
       all.panels.insert(all.panels.end(), one.panels.begin(), one.panels.end());
       all.hull.insert(all.hull.end(), one.hull.begin(), one.hull.end());
