@@ -9,8 +9,7 @@ namespace stillhook {
 namespace {
 
 constexpr double kRatio = 1.4142135623730951;
-// Edges of a box converge at first order; what looks slower is two grids that happen to agree.
-constexpr double kLowestOrder = 1.0, kHighestOrder = 3.0;
+constexpr double kLowestOrder = 1.0, kHighestOrder = 2.0;
 
 /// Numbers of one curve and how far they lie from those of another.
 struct Curve {
@@ -22,11 +21,19 @@ struct Curve {
   }
 };
 
-double difference(const Curve& a, const Curve& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(a.value.size(), b.value.size()); ++i)
-    most = std::max(most, std::abs(a.value[i] - b.value[i]));
-  return most;
+struct Difference {
+  double most = 0.0, mean = 0.0;  // of the absolute values; the mean is the root mean square
+};
+
+Difference difference(const Curve& a, const Curve& b) {
+  Difference d;
+  const std::size_t count = std::min(a.value.size(), b.value.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    d.most = std::max(d.most, std::abs(a.value[i] - b.value[i]));
+    d.mean += std::norm(a.value[i] - b.value[i]) / static_cast<double>(count);
+  }
+  d.mean = std::sqrt(d.mean);
+  return d;
 }
 
 Curve curve_of(const HydrodynamicCoefficients& set, const std::string& quantity, int mode) {
@@ -43,26 +50,29 @@ Curve curve_of(const HydrodynamicCoefficients& set, const std::string& quantity,
   return curve;
 }
 
-ConvergenceRow row_of(const std::array<const HydrodynamicCoefficients*, 3>& grids, const std::string& quantity,
-                      int mode) {
-  const Curve coarse = curve_of(*grids[0], quantity, mode), middle = curve_of(*grids[1], quantity, mode),
-              fine = curve_of(*grids[2], quantity, mode);
-  const double scale = std::max(fine.largest(), std::numeric_limits<double>::min());
-  ConvergenceRow row{quantity, mode, difference(coarse, middle) / scale, difference(middle, fine) / scale};
-  row.error = std::max(row.first, row.second);
-  if (row.second > 0.0 && row.first > row.second) {
-    row.order = std::log(row.first / row.second) / std::log(kRatio);
-    row.error = row.second / (1.0 - std::pow(kRatio, -std::clamp(row.order, kLowestOrder, kHighestOrder)));
-  }
-  return row;
-}
-
 void count_panels(const std::vector<PanelBand>& bands, int& hull, int& surface) {
   for (const PanelBand& band : bands)
     if (band.hull_panels + band.surface_panels > hull + surface) hull = band.hull_panels, surface = band.surface_panels;
 }
 
 }  // namespace
+
+ConvergenceRow convergence_row(const std::array<const HydrodynamicCoefficients*, 3>& grids, const std::string& quantity,
+                               int mode) {
+  const Curve coarse = curve_of(*grids[0], quantity, mode), middle = curve_of(*grids[1], quantity, mode),
+              fine = curve_of(*grids[2], quantity, mode);
+  const double scale = std::max(fine.largest(), std::numeric_limits<double>::min());
+  const Difference first = difference(coarse, middle), second = difference(middle, fine);
+  ConvergenceRow row{quantity, mode, first.most / scale, second.most / scale};
+  const double order = second.mean > 0.0 ? std::log(first.mean / second.mean) / std::log(kRatio) : 0.0;
+  if (order >= kLowestOrder) {
+    row.order = order;
+    row.error = row.second / (1.0 - std::pow(kRatio, -std::min(order, kHighestOrder)));
+  } else {
+    row.error = std::max(row.first, row.second);
+  }
+  return row;
+}
 
 const ConvergenceRow& Convergence::worst() const {
   return *std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
@@ -106,7 +116,7 @@ Convergence converge(const Case& c, const HydroSet& set, const HydroProgress& pr
   const std::array<const HydrodynamicCoefficients*, 3> values{grids[0]->set.get(), grids[1]->set.get(),
                                                               grids[2]->set.get()};
   for (const char* quantity : {"A", "B", "X"})
-    for (int mode = 0; mode < set.set->modes(); ++mode) result.rows.push_back(row_of(values, quantity, mode));
+    for (int mode = 0; mode < set.set->modes(); ++mode) result.rows.push_back(convergence_row(values, quantity, mode));
   return result;
 }
 
