@@ -48,6 +48,9 @@ class HhtTangent {
   HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins);
 
   int directions() const { return static_cast<int>(twins_.size()); }
+  /// Column c belongs to direction live()[c]; the directions that are not there have changed nothing yet.
+  const StateTangent& tangent() const { return now_; }
+  const std::vector<int>& live() const { return live_; }
   /// Derivatives of the state, rows (xi, u, element states), a column each direction.
   MatrixX state_change() const;
   const SystemTwin& twin(int j) const { return twins_[j].of; }
