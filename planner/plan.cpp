@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include "planner/version.h"
@@ -54,12 +55,26 @@ PlanResult::Point point_of(const Evaluation& e) {
   return {e.usable ? e.objective : std::numeric_limits<double>::quiet_NaN(), e.usable && e.violation() <= 0.0};
 }
 
-/// The stage that follows exact gradients of the smooth problem. Returns the points worth starting from: the best of
-/// its evaluations by the metrics as they are, which each of them knows as well.
+/// The point of all guesses, where the case has any; for the others its own values.
+std::optional<Eigen::VectorXd> guessed_point(const Evaluator& evaluator) {
+  Eigen::VectorXd x = evaluator.baseline();
+  bool any = false;
+  const std::vector<VariableSpec>& variables = evaluator.base().plan.variables;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (!variables[i].start) continue;
+    x[static_cast<Eigen::Index>(i)] = *variables[i].start;
+    any = true;
+  }
+  return any ? std::optional(x) : std::nullopt;
+}
+
+/// The stage that follows exact gradients of the smooth problem, from the guesses if there are any. Returns the points
+/// worth starting from: the best of its evaluations by the metrics as they are, which each of them knows as well.
 std::vector<Eigen::VectorXd> follow_gradients(const Evaluator& evaluator, SearchProblem smooth, EvaluationStore& store,
                                               const PlanOptions& options, SearchReport& report) {
   const PlanSpec& plan = evaluator.base().plan;
   smooth = with_store(smooth, store, "gradient");
+  if (const auto guess = guessed_point(evaluator)) smooth.start = *guess;
   std::mutex mutex;
   Evaluation best;
   Eigen::VectorXd best_x;
@@ -104,6 +119,7 @@ PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem
     result.interrupted = result.gradient.status == SearchStatus::interrupted;
     if (result.interrupted) return result;
   }
+  if (const auto guess = guessed_point(evaluator)) search_with.starts.push_back(*guess);
   search_with.stop = options.stop;
   search_with.progress = [&](const SearchProgress& p) {
     if (p.evaluations == 1) result.baseline = *p.last;
@@ -147,11 +163,14 @@ SearchOptions search_options(const PlanSpec& plan) {
 StoreIdentity store_identity(const Case& c) {
   Node document = parse_document(c.resolved, c.file);
   document.remove("tune");
-  if (Node* plan = document.find("plan"))
+  if (Node* plan = document.find("plan")) {
     for (const char* key :
          {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm",
           "gradient_algorithm", "gradient_evaluations", "random_search", "certify", "pareto"})
       plan->remove(key);
+    if (Node* variables = plan->find("variables"))
+      for (auto& variable : variables->entries) variable.second.remove("start");
+  }
   StoreIdentity identity;
   identity.version = kVersion;
   identity.problem = write_document(document);

@@ -26,6 +26,7 @@ struct VariableSpec {
   std::string key;     // e.g. "taglines.*.kp_kN_per_deg" or "operation.phases.hoist_up.moves.hoist.speed_m_per_min"
   double lower = 0.0, upper = 0.0;
   bool logarithmic = false;
+  std::optional<double> start;  // of a second point that the search begins from; absent: the case's own value
 };
 
 /// One condition that a plan is evaluated in: a sea state with changes.

@@ -63,8 +63,10 @@ class PlanCheck {
       if (metric.empty()) continue;
       wants_metric(entry, metric);
       if (better_when_larger(metric))
-        report(entry, key, fmt::format("is better when larger; a front is drawn of metrics that are better when smaller, "
-                                       "got \"{}\"", metric));
+        report(entry, key,
+               fmt::format("is better when larger; a front is drawn of metrics that are better when smaller, "
+                           "got \"{}\"",
+                           metric));
     }
     if (case_.plan.variables.empty()) report(entry, "first", "needs [plan.variables]: there is nothing to search over");
   }
@@ -81,6 +83,8 @@ class PlanCheck {
     const std::string entry = "plan.variables." + as_step(v.key);
     if (v.logarithmic && !(v.lower > 0.0))
       report(entry, "min", fmt::format("must be > 0 for a logarithmic variable, got {:.6g}", v.lower));
+    if (v.start && !(v.lower <= *v.start && *v.start <= v.upper))
+      report(entry, "start", fmt::format("must lie in [{:.6g}, {:.6g}], got {:.6g}", v.lower, v.upper, *v.start));
     check_varied_key({entry, v.key, v.lower, v.upper, std::nullopt}, root_, findings_);
   }
 

@@ -24,6 +24,9 @@ const Table& variable_table() {
     t.number("min", &S::lower, unit::one, any_value(), "Lower bound, in the key's unit.").require();
     t.number("max", &S::upper, unit::one, any_value(), "Upper bound.").require();
     t.boolean("logarithmic", &S::logarithmic, "Search over its logarithm.");
+    t.number("start", &S::start, unit::one, any_value(),
+             "A guess, in the key's unit. The search begins from the case as it is and from the point of all guesses.")
+        .absent("the case's own value");
     return t.build();
   }();
   return table;
@@ -137,7 +140,9 @@ const Table& tune_table() {
     t.text("algorithm", &S::algorithm,
            "Algorithm: with exact gradients `slsqp`, `ipopt`, `ccsaq`, `mma`; without `cobyla`; or `auto`.");
     t.integer("evaluations", &S::evaluations, Range{1, 100000, false}, "Budget of points.");
-    t.text("phase", &S::phase, "This phase alone, begun at rest.").names(Reference::phase).absent("the whole operation");
+    t.text("phase", &S::phase, "This phase alone, begun at rest.")
+        .names(Reference::phase)
+        .absent("the whole operation");
     t.text("pose", &S::pose, "Instead: at rest in the pose that this phase ends in.")
         .names(Reference::phase)
         .absent("the whole operation");

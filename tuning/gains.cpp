@@ -15,8 +15,8 @@ std::vector<VariableSpec> usual_gains(const Case& c) {
   for (const TaglineSpec& line : c.specification.taglines) pull = std::max(pull, line.tension_max);
   const double kN = pull / 1000.0;
   return {
-      {"taglines.*.kp_kN_per_deg", 0.0, std::max(0.5 * kN, 1.2 * key_value(c, "taglines.*.kp_kN_per_deg")), false},
-      {"taglines.*.kd_kN_s_per_deg", 0.0, std::max(2.0 * kN, 1.2 * key_value(c, "taglines.*.kd_kN_s_per_deg")), false}};
+      {"taglines.*.kp_kN_per_deg", 0.0, std::max(0.5 * kN, 1.2 * key_value(c, "taglines.*.kp_kN_per_deg")), false, {}},
+      {"taglines.*.kd_kN_s_per_deg", 0.0, std::max(2.0 * kN, 1.2 * key_value(c, "taglines.*.kd_kN_s_per_deg")), false, {}}};
 }
 
 void draw_map(const Evaluator& evaluator, const Eigen::VectorXd& at, const TuningOptions& options, GainTuning& result) {
@@ -230,7 +230,7 @@ GainSchedule tune_schedule(const Evaluator& evaluator, const GainTuning& pair, c
   for (const char* point : {"short", "long"})
     for (const char* gain : {"kp_factor", "kd_factor"})
       scheduled.plan.variables.push_back(
-          {std::string("taglines.*.gain_schedule.") + point + "." + gain, 0.2, 5.0, false});
+          {std::string("taglines.*.gain_schedule.") + point + "." + gain, 0.2, 5.0, false, {}});
   const Evaluator with(scheduled, evaluator.scenarios(), options.stop);
   const Best best = search(with, evaluator.base().tune, "schedule, ", options);
   simulations += static_cast<double>(evaluator.scenarios().size()) * (kGradientCharge * best.report.evaluations + 1.0);

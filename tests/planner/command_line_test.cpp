@@ -183,6 +183,22 @@ TEST_CASE("plan leaves the random search out where it is not wanted, and --resum
   CHECK(json::parse(content(folder / "p/summary.json"))["objective"]["random_search"].is_number());
 }
 
+TEST_CASE("plan begins from the guesses as well, with the case as its baseline") {
+  const Folder folder;
+  const Result r = run(folder, {"plan", kCase, "--out", "p", "--evaluations", "2", "--json", "--set",
+                                "plan.variables.operation.phases.hoist_up.moves.hoist.speed_m_per_min.start=24"});
+  REQUIRE(r.code == 0);
+  const json s = json::parse(r.out);
+  CHECK(s["objective"]["plan"].get<double>() < s["objective"]["baseline"].get<double>());  // a faster hoist sways less
+  bool seen = false;
+  for (const json& v : s["variables"]) {
+    const bool hoist = v["name"] == "operation.phases.hoist_up.moves.hoist.speed_m_per_min";
+    seen = seen || hoist;
+    CHECK(v["plan"].get<double>() == (hoist ? 24.0 : v["baseline"].get<double>()));
+  }
+  CHECK(seen);
+}
+
 TEST_CASE("plan without a feasible point is 3, with the least violation in its folder") {
   const Folder folder;
   const Result result =
