@@ -4,6 +4,7 @@
 
 #include "planner/hydro_files.h"
 #include "planner/version.h"
+#include "results/json_number.h"
 #include "results/summary.h"
 
 namespace stillhook {
@@ -12,15 +13,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json checks_json(const HydroSet& set) {
   Json checks = Json::array();
   for (const SelfCheck& check : set.checks)
     checks.push_back({{"key", check.key},
                       {"name", check.name},
-                      {"value", number(check.value)},
-                      {"limit", number(check.limit)},
+                      {"value", json_number(check.value)},
+                      {"limit", json_number(check.limit)},
                       {"pass", check.passed()},
                       {"detail", check.detail}});
   return checks;
@@ -34,15 +33,15 @@ Json fit_json(const HydroSet& set) {
               {"to_rad_per_s", report.highest},
               {"tolerance", report.tolerance},
               {"states", report.states},
-              {"worst_r_squared", number(report.worst_r_squared())},
+              {"worst_r_squared", json_number(report.worst_r_squared())},
               {"blocks", Json::array()}};
   for (const StateSpaceBlockReport& block : report.blocks) {
     Json modes = Json::array();
     for (const int mode : block.modes) modes.push_back(set.mode_name(mode));
     fit["blocks"].push_back({{"modes", modes},
                              {"order", block.order},
-                             {"passivity_margin", number(block.passivity_margin)},
-                             {"margin_rad_per_s", number(block.margin_frequency)},
+                             {"passivity_margin", json_number(block.passivity_margin)},
+                             {"margin_rad_per_s", json_number(block.margin_frequency)},
                              {"passivity_enforced", block.passivity_enforced}});
   }
   return fit;
@@ -66,10 +65,10 @@ Json convergence_json(const HydroSet& set, const Convergence& convergence) {
   for (const ConvergenceRow& row : convergence.rows)
     rows.push_back({{"quantity", row.quantity},
                     {"mode", set.mode_name(row.mode)},
-                    {"first_change", number(row.first)},
-                    {"second_change", number(row.second)},
-                    {"order", number(row.order)},
-                    {"error", number(row.error)}});
+                    {"first_change", json_number(row.first)},
+                    {"second_change", json_number(row.second)},
+                    {"order", json_number(row.order)},
+                    {"error", json_number(row.error)}});
   return {{"refinement", convergence.refinement},         {"hull_panels", convergence.hull_panels},
           {"surface_panels", convergence.surface_panels}, {"limit", Convergence::kLimit},
           {"worst_error", convergence.worst().error},     {"within_limit", convergence.within_limit()},
@@ -87,8 +86,8 @@ Json rao_json(const ResponseCurves& curves) {
       for (int i = 0; i < 6; ++i) {
         Json amplitude = Json::array(), phase = Json::array();
         for (const ResponseAmplitude::Vector6c& value : body.value[h]) {
-          amplitude.push_back(number(std::abs(value[i]) / (i < 3 ? 1.0 : kDegree)));
-          phase.push_back(number(std::arg(value[i]) / kDegree));
+          amplitude.push_back(json_number(std::abs(value[i]) / (i < 3 ? 1.0 : kDegree)));
+          phase.push_back(json_number(std::arg(value[i]) / kDegree));
         }
         of_heading[kNames[i]] = {{"amplitude", amplitude}, {"phase_deg", phase}};
       }
@@ -116,7 +115,7 @@ std::string hydro_summary(const Case& c, const HydroResult& result, const std::v
   document["case"] = c.name;
   document["verb"] = "hydro";
   document["status"] = "completed";
-  document["wall_s"] = number(result.wall);
+  document["wall_s"] = json_number(result.wall);
   document["warnings"] = result.warnings;
   document["files"] = files;
   Json& sets = document["sets"] = Json::array();
@@ -126,11 +125,11 @@ std::string hydro_summary(const Case& c, const HydroResult& result, const std::v
                     {"source", set.set->source},
                     {"description", set.set->description},
                     {"from_cache", set.from_cache},
-                    {"seconds", number(set.seconds)},
+                    {"seconds", json_number(set.seconds)},
                     {"waterline_m", set.set->waterline},
                     {"volume_m3", set.set->volume},
                     {"frequencies", set.set->frequency.size()},
-                    {"asymmetry", number(set.asymmetry)},
+                    {"asymmetry", json_number(set.asymmetry)},
                     {"checks", checks_json(set)},
                     {"fit", fit_json(set)},
                     {"panels", panels_json(set)}});

@@ -5,17 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "results/files.h"
+#include "results/json_number.h"
 
 namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-double number_in(const Json& entry) {
-  return entry.is_null() ? std::numeric_limits<double>::quiet_NaN() : entry.get<double>();
-}
 
 Json json_of(const ReportTable& table) {
   return {{"title", table.title}, {"note", table.note}, {"header", table.header}, {"rows", table.rows}};
@@ -26,8 +21,8 @@ Json json_of(const SensitivityTable& table) {
   for (const SensitivityTable::Column& c : table.columns) columns.push_back({{"metric", c.metric}, {"unit", c.unit}});
   for (const SensitivityTable::Row& r : table.rows) {
     Json derivative = Json::array();
-    for (const double d : r.derivative) derivative.push_back(number(d));
-    rows.push_back({{"key", r.key}, {"range", number(r.range)}, {"derivative", derivative}});
+    for (const double d : r.derivative) derivative.push_back(json_number(d));
+    rows.push_back({{"key", r.key}, {"range", json_number(r.range)}, {"derivative", derivative}});
   }
   return {{"note", table.note}, {"columns", columns}, {"rows", rows}};
 }
@@ -43,8 +38,8 @@ SensitivityTable sensitivities_in(const Json& j) {
   for (const Json& c : j.at("columns"))
     table.columns.push_back({c.at("metric").get<std::string>(), c.at("unit").get<std::string>()});
   for (const Json& r : j.at("rows")) {
-    table.rows.push_back({r.at("key").get<std::string>(), number_in(r.at("range")), {}});
-    for (const Json& d : r.at("derivative")) table.rows.back().derivative.push_back(number_in(d));
+    table.rows.push_back({r.at("key").get<std::string>(), number_of(r.at("range")), {}});
+    for (const Json& d : r.at("derivative")) table.rows.back().derivative.push_back(number_of(d));
   }
   return table;
 }

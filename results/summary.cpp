@@ -4,18 +4,18 @@
 #include <nlohmann/json.hpp>
 
 #include "results/files.h"
+#include "results/json_number.h"
 
 namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json metrics_json(const Metrics& metrics) {
   Json all = Json::object();
   for (const Metric& m : metrics.items)
-    all[m.name] = {{"value", number(m.value)}, {"unit", m.unit}, {"time", number(m.time)}, {"phase", m.phase}};
+    all[m.name] = {
+        {"value", json_number(m.value)}, {"unit", m.unit}, {"time", json_number(m.time)}, {"phase", m.phase}};
   return all;
 }
 
@@ -25,10 +25,10 @@ Json limits_json(const std::vector<LimitCheck>& checks) {
     all.push_back({{"name", c.metric},
                    {"unit", c.unit},
                    {"sense", c.is_max ? "max" : "min"},
-                   {"value", number(c.value)},
-                   {"limit", number(c.limit)},
-                   {"margin", number(c.margin)},
-                   {"time", number(c.time)},
+                   {"value", json_number(c.value)},
+                   {"limit", json_number(c.limit)},
+                   {"margin", json_number(c.margin)},
+                   {"time", json_number(c.time)},
                    {"phase", c.phase},
                    {"hard", c.hard},
                    {"pass", c.pass},
@@ -38,26 +38,26 @@ Json limits_json(const std::vector<LimitCheck>& checks) {
 
 void add_search(const Summary& summary, Json& document) {
   if (summary.objective)
-    document["objective"] = {{"baseline", number(summary.objective->baseline)},
-                             {"plan", number(summary.objective->plan)},
-                             {"random_search", number(summary.objective->random_search)}};
+    document["objective"] = {{"baseline", json_number(summary.objective->baseline)},
+                             {"plan", json_number(summary.objective->plan)},
+                             {"random_search", json_number(summary.objective->random_search)}};
   if (summary.search)
     document["search"] = {{"algorithm", summary.search->algorithm},
                           {"evaluations", summary.search->evaluations},
-                          {"simulation_equivalents", number(summary.search->simulation_equivalents)},
+                          {"simulation_equivalents", json_number(summary.search->simulation_equivalents)},
                           {"seed", summary.search->seed}};
   if (summary.variables.empty()) return;
   Json& variables = document["variables"] = Json::array();
   for (const VariableSummary& v : summary.variables)
     variables.push_back({{"name", v.name},
-                         {"lower", number(v.lower)},
-                         {"upper", number(v.upper)},
-                         {"baseline", number(v.baseline)},
-                         {"plan", number(v.plan)}});
+                         {"lower", json_number(v.lower)},
+                         {"upper", json_number(v.upper)},
+                         {"baseline", json_number(v.baseline)},
+                         {"plan", json_number(v.plan)}});
 }
 
 Json mean_json(const MeanSummary& m) {
-  return {{"mean", number(m.mean)}, {"low", number(m.low)}, {"high", number(m.high)}};
+  return {{"mean", json_number(m.mean)}, {"low", json_number(m.low)}, {"high", json_number(m.high)}};
 }
 
 Json certificate_json(const CertificateSummary& c) {
@@ -75,8 +75,8 @@ Json certificate_json(const CertificateSummary& c) {
     out["limits"].push_back({{"name", l.name},
                              {"broken", l.broken},
                              {"baseline_broken", l.baseline_broken},
-                             {"share_at_most", number(l.share_at_most)},
-                             {"allowed", number(l.allowed)}});
+                             {"share_at_most", json_number(l.share_at_most)},
+                             {"allowed", json_number(l.allowed)}});
   return out;
 }
 
@@ -84,9 +84,9 @@ Json pareto_json(const ParetoSummary& p) {
   Json out = {{"first", p.first}, {"second", p.second}, {"points", Json::array()}};
   for (const ParetoSummary::Point& point : p.points) {
     Json variables = Json::array();
-    for (const double v : point.variables) variables.push_back(number(v));
-    out["points"].push_back({{"first", number(point.first)},
-                             {"second", number(point.second)},
+    for (const double v : point.variables) variables.push_back(json_number(v));
+    out["points"].push_back({{"first", json_number(point.first)},
+                             {"second", json_number(point.second)},
                              {"on_front", point.on_front},
                              {"within_limits", point.within_limits},
                              {"variables", variables}});
@@ -137,9 +137,9 @@ std::string summary_json(const Summary& summary) {
   document["within_limits"] = within_limits(summary.metrics, summary.limits);
   const LimitCheck* governing = governing_check(summary.limits);
   document["governing"] = governing ? Json(governing->metric) : Json(nullptr);
-  document["simulated_s"] = number(summary.simulated);
-  document["wall_s"] = number(summary.wall);
-  document["real_time_factor"] = number(summary.simulated / summary.wall);
+  document["simulated_s"] = json_number(summary.simulated);
+  document["wall_s"] = json_number(summary.wall);
+  document["real_time_factor"] = json_number(summary.simulated / summary.wall);
   document["metrics"] = metrics_json(summary.metrics);
   document["limits"] = limits_json(summary.limits);
   add_search(summary, document);
@@ -150,9 +150,9 @@ std::string summary_json(const Summary& summary) {
     for (const EstimateSummary& e : summary.estimates)
       estimates.push_back({{"name", e.name},
                            {"unit", e.unit},
-                           {"value", number(e.value)},
-                           {"low", number(e.low)},
-                           {"high", number(e.high)}});
+                           {"value", json_number(e.value)},
+                           {"low", json_number(e.low)},
+                           {"high", json_number(e.high)}});
   }
   // Names come from the case file; bytes that are not UTF-8 are replaced rather than thrown at the user at the end.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -3,16 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "results/files.h"
+#include "results/json_number.h"
 #include "results/summary.h"
 
 namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double number(const Json& entry) {
-  return entry.is_null() ? std::numeric_limits<double>::quiet_NaN() : entry.get<double>();
-}
 
 RunStatus status_of(const std::string& name) {
   for (const RunStatus status : {RunStatus::completed, RunStatus::interrupted, RunStatus::diverged})
@@ -23,7 +20,7 @@ RunStatus status_of(const std::string& name) {
 Metrics metrics_of(const Json& document) {
   Metrics metrics;
   for (const auto& [name, m] : document.at("metrics").items())
-    metrics.items.push_back({name, m.at("unit").get<std::string>(), number(m.at("value")), number(m.at("time")),
+    metrics.items.push_back({name, m.at("unit").get<std::string>(), number_of(m.at("value")), number_of(m.at("time")),
                              m.at("phase").get<std::string>()});
   return metrics;
 }
@@ -37,10 +34,10 @@ std::vector<LimitCheck> limits_of(const Json& document) {
     check.source = l.at("source").get<std::string>();
     check.phase = l.at("phase").get<std::string>();
     check.is_max = l.at("sense") == "max";
-    check.value = number(l.at("value"));
-    check.limit = number(l.at("limit"));
-    check.margin = number(l.at("margin"));
-    check.time = number(l.at("time"));
+    check.value = number_of(l.at("value"));
+    check.limit = number_of(l.at("limit"));
+    check.margin = number_of(l.at("margin"));
+    check.time = number_of(l.at("time"));
     check.hard = l.at("hard").get<bool>();
     check.pass = l.at("pass").get<bool>();
     limits.push_back(check);
@@ -58,8 +55,8 @@ Summary summary_of(const Json& document) {
   summary.status = status_of(document.at("status").get<std::string>());
   summary.message = document.at("message").get<std::string>();
   summary.warnings = document.at("warnings").get<std::vector<std::string>>();
-  summary.simulated = number(document.at("simulated_s"));
-  summary.wall = number(document.at("wall_s"));
+  summary.simulated = number_of(document.at("simulated_s"));
+  summary.wall = number_of(document.at("wall_s"));
   summary.metrics = metrics_of(document);
   summary.metrics.status = summary.status;
   summary.limits = limits_of(document);
