@@ -264,8 +264,25 @@ Operation build_operation_like(const Model& model, const Model& other, const Ope
                      [&](std::size_t p, const SystemState& before) { return neighbour.end_of_phase(p, before); });
 }
 
-Operation part_of(const Operation& whole, const OperationPart& part) {
+std::vector<Move> jumps_to(const std::vector<DriveState>& drives) {
   constexpr double kAtOnce = 1e9;  // travels per s
+  std::vector<Move> jumps;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const double position = drives[d].position;
+    if (position == 0.0) continue;
+    Move move;
+    move.drive = static_cast<int>(d);
+    ProfileSpec step;
+    step.shape = ProfileSpec::Shape::trapezoid;
+    step.ramp = 0.0;
+    move.profile = RateProfile(step, position, kAtOnce * std::abs(position));
+    move.background = true;
+    jumps.push_back(std::move(move));
+  }
+  return jumps;
+}
+
+Operation part_of(const Operation& whole, const OperationPart& part) {
   Operation operation;
   const std::size_t last = static_cast<std::size_t>(part.phase);
   for (std::size_t p = 0; p <= last; ++p) {
@@ -278,18 +295,8 @@ Operation part_of(const Operation& whole, const OperationPart& part) {
     operation.phases.push_back(std::move(phase));
   }
   // The drives jump in the first instant; the state to begin with is there already.
-  const SystemState& begin = whole.equilibria[part.begins_at()];
-  for (std::size_t d = 0; d < begin.drive.size(); ++d) {
-    if (begin.drive[d].position == 0.0) continue;
-    Move move;
-    move.drive = static_cast<int>(d);
-    ProfileSpec step;
-    step.shape = ProfileSpec::Shape::trapezoid;
-    step.ramp = 0.0;
-    move.profile = RateProfile(step, begin.drive[d].position, kAtOnce * std::abs(begin.drive[d].position));
-    move.background = true;
-    operation.phases.front().moves.push_back(move);
-  }
+  for (Move& jump : jumps_to(whole.equilibria[part.begins_at()].drive))
+    operation.phases.front().moves.push_back(std::move(jump));
   operation.static_poses.assign(whole.static_poses.begin(), whole.static_poses.begin() + part.phase + 2);
   operation.equilibria.assign(whole.equilibria.begin(), whole.equilibria.begin() + part.phase + 2);
   if (part.hold > 0.0) {  // it begins as it ends

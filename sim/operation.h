@@ -44,6 +44,9 @@ Operation build_operation(const Model& model, double until = 0.0);
 /// equilibrium of `other` that is one of this model as well is taken over; else it is where the search for it begins.
 Operation build_operation_like(const Model& model, const Model& other, const Operation& like);
 
+/// Moves that bring every drive from rest at zero to where it stands in `drives`, all in the first instant.
+std::vector<Move> jumps_to(const std::vector<DriveState>& drives);
+
 /// A part of an operation: one phase, or the pose at its end held for a while.
 struct OperationPart {
   int phase = -1;     // -1: no part, the whole operation

@@ -160,17 +160,7 @@ class HangingPose {
       phase.name = phases[static_cast<std::size_t>(i)].name;
       phase.stage = phases[static_cast<std::size_t>(i)].stage;
       phase.duration = i == state_.phase ? time : 0.0;
-      for (std::size_t d = 0; i == 0 && d < state_.drive.size(); ++d) {
-        if (state_.drive[d].position == 0.0) continue;
-        Move move;
-        move.drive = static_cast<int>(d);
-        ProfileSpec step;
-        step.shape = ProfileSpec::Shape::trapezoid;
-        step.ramp = 0.0;
-        move.profile = RateProfile(step, state_.drive[d].position, kAtOnce * std::abs(state_.drive[d].position));
-        move.background = true;
-        phase.moves.push_back(move);
-      }
+      if (i == 0) phase.moves = jumps_to(state_.drive);
       operation.phases.push_back(phase);
     }
     return operation;
@@ -225,7 +215,6 @@ class HangingPose {
     return d / std::sqrt(1.0 + d * d);
   }
 
-  static constexpr double kAtOnce = 1e9;  // travels per s
   const Model& free_;
   const Model& lines_;
   std::string name_;
