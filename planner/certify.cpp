@@ -9,13 +9,13 @@
 
 #include "planner/plan_results.h"
 #include "problems/scenarios.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
 constexpr int kResamples = 2000;
 constexpr double kConfidence = 0.95;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double quantile_of(std::vector<double> sorted, double q) {
   if (sorted.empty()) return kNaN;

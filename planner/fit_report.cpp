@@ -9,7 +9,7 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-#include "planner/fit_units.h"
+#include "planner/shown_unit.h"
 #include "planner/report_page.h"
 #include "planner/text_number.h"
 #include "results/html.h"

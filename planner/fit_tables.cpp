@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "planner/fit_report.h"
-#include "planner/fit_units.h"
+#include "planner/shown_unit.h"
 #include "planner/text_number.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
@@ -22,9 +23,8 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 }  // namespace
 
 ShownUnit shown_unit(const std::string& si) {
-  constexpr double degree = 3.14159265358979323846 / 180.0;
-  if (si == "rad") return {"deg", degree};
-  if (si == "rad/s") return {"deg/s", degree};
+  if (si == "rad") return {"deg", kDegree};
+  if (si == "rad/s") return {"deg/s", kDegree};
   if (si == "N") return {"kN", 1e3};
   if (si == "N m") return {"kN m", 1e3};
   return {si, 1.0};

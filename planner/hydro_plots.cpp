@@ -4,18 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "planner/hydro_report.h"
 #include "planner/hydro_tables.h"
 #include "results/html.h"
 #include "results/plot.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNegligible = 1e-4;  // of the largest mode of its kind: not plotted
 constexpr int kModelSamples = 160;
 constexpr double kKernelEnd = 25.0;  // s, plotted at most
@@ -29,13 +27,12 @@ std::string grid(const std::vector<Plot>& plots) {
 /// "10³ t m²" and the factor that belongs to it, so that tick labels stay short.
 ShownUnit readable(const ShownUnit& unit, double largest) {
   static constexpr std::array<const char*, 4> kPowers = {"", "10³ ", "10⁶ ", "10⁹ "};
-  const double shown = largest * unit.factor;
   std::size_t power = 0;
   double factor = unit.factor;
-  for (double rest = shown; rest >= 1e4 && power + 1 < kPowers.size(); rest /= 1e3, factor /= 1e3) ++power;
-  std::string text = unit.unit;
+  for (double rest = largest / unit.factor; rest >= 1e4 && power + 1 < kPowers.size(); rest /= 1e3, factor *= 1e3) ++power;
+  std::string text = unit.name;
   if (text.ends_with("m2")) text.replace(text.size() - 2, 2, "m²");
-  return {factor, kPowers[power] + text};
+  return {kPowers[power] + text, factor};
 }
 
 Plot empty_plot(const std::string& title, const std::string& y_label, const std::string& x_label) {
@@ -70,15 +67,15 @@ Plot coefficient_plot(const HydroSet& set, int i, bool added_mass) {
     }
   const ShownUnit unit = readable(added_mass ? added_mass_unit(i, i) : damping_unit(i, i), largest);
   for (PlotLine* line : {&data, &model})
-    for (double& v : line->value) v *= unit.factor;
+    for (double& v : line->value) v /= unit.factor;
   Plot plot = empty_plot(fmt::format("{} in {}", added_mass ? "Added mass" : "Radiation damping", set.mode_name(i)),
-                         unit.unit, "ω, rad/s");
+                         unit.name, "ω, rad/s");
   plot.lines.push_back(std::move(data));
   if (!model.time.empty()) plot.lines.push_back(std::move(model));
   if (added_mass) {
-    plot.limits.push_back({"A(∞)", c.A_inf(i, i) * unit.factor});
+    plot.limits.push_back({"A(∞)", c.A_inf(i, i) / unit.factor});
     if (!c.frequency.empty() && c.frequency.front().frequency == 0.0)
-      plot.limits.push_back({"A(0)", c.frequency.front().A(i, i) * unit.factor});
+      plot.limits.push_back({"A(0)", c.frequency.front().A(i, i) / unit.factor});
   }
   return plot;
 }
@@ -103,8 +100,8 @@ Plot kernel_plot(const HydroSet& set, int i) {
     }
   const ShownUnit unit = readable(kernel_unit(i, i), largest);
   for (PlotLine* line : {&kernel, &model})
-    for (double& v : line->value) v *= unit.factor;
-  Plot plot = empty_plot("Retardation function in " + set.mode_name(i), unit.unit, "t, s");
+    for (double& v : line->value) v /= unit.factor;
+  Plot plot = empty_plot("Retardation function in " + set.mode_name(i), unit.name, "t, s");
   plot.lines.push_back(std::move(kernel));
   if (!model.time.empty()) plot.lines.push_back(std::move(model));
   return plot;
@@ -119,7 +116,7 @@ std::array<Plot, 2> excitation_plots(const HydroSet& set, int i) {
     for (std::size_t f = 0; f < X.frequencies.size(); ++f)
       largest = std::max(largest, std::abs(X.at(static_cast<int>(f), h, i)));
   const ShownUnit unit = readable(excitation_unit(i), largest);
-  std::array<Plot, 2> plots{empty_plot("Excitation in " + set.mode_name(i), unit.unit, "ω, rad/s"),
+  std::array<Plot, 2> plots{empty_plot("Excitation in " + set.mode_name(i), unit.name, "ω, rad/s"),
                             empty_plot("Its lag behind the crest", "deg", "ω, rad/s")};
   for (const int h : headings) {
     PlotLine amplitude{fmt::format("{:.0f}°", X.headings[h] / kDegree), {}, {}}, phase = amplitude;
@@ -127,7 +124,7 @@ std::array<Plot, 2> excitation_plots(const HydroSet& set, int i) {
     for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
       const Complex x = X.at(static_cast<int>(f), h, i);
       amplitude.time.push_back(X.frequencies[f]);
-      amplitude.value.push_back(std::abs(x) * unit.factor);
+      amplitude.value.push_back(std::abs(x) / unit.factor);
       phase.time.push_back(X.frequencies[f]);
       const double now = std::arg(x) / kDegree;
       // The line is broken where the phase jumps through 180 deg, and where there is no force.

@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "sim/modes.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kSamples = 120;
 constexpr double kLowest = 0.2, kHighest = 2.0;  // rad/s, where no set gives a band
 

@@ -1,17 +1,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "planner/hydro_files.h"
 #include "planner/version.h"
 #include "results/json_number.h"
 #include "results/summary.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Json checks_json(const HydroSet& set) {
   Json checks = Json::array();

@@ -9,18 +9,18 @@
 #include <numbers>
 
 #include "planner/text_number.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNegligible = 5e-3;
 constexpr int kSampled = 6;          // frequencies of the table of pairs
 constexpr int kExcitationRows = 14;  // frequencies of the table of X
 
 int rotations(int i, int j) { return (i % 6 >= 3) + (j % 6 >= 3); }
 
-std::string number(double value, double factor) { return std::isfinite(value) ? short_number(value * factor) : "-"; }
+std::string number(double value, double factor) { return std::isfinite(value) ? short_number(value / factor) : "-"; }
 
 /// Evenly chosen indices of n entries.
 std::vector<int> spread(int n, int wanted) {
@@ -38,7 +38,7 @@ ReportTable diagonal_table(const HydroSet& set, int hull, bool added_mass) {
   for (int i = 6 * hull; i < 6 * hull + 6; ++i) {
     static constexpr std::array<const char*, 6> kNames = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
     table.header.push_back(
-        fmt::format("{} {}", kNames[i % 6], added_mass ? added_mass_unit(i, i).unit : damping_unit(i, i).unit));
+        fmt::format("{} {}", kNames[i % 6], added_mass ? added_mass_unit(i, i).name : damping_unit(i, i).name));
   }
   const auto add = [&](const std::string& w, const std::string& period, const MatrixX& M) {
     std::vector<std::string> row = {w, period};
@@ -72,7 +72,7 @@ ReportTable pair_table(const HydroSet& set, const std::vector<std::pair<int, int
     for (const bool added_mass : {true, false}) {
       const ShownUnit unit = added_mass ? added_mass_unit(i, j) : damping_unit(i, j);
       std::vector<std::string> row = {
-          fmt::format("{} {}, {}", added_mass ? "A" : "B", set.mode_name(i), set.mode_name(j)), unit.unit};
+          fmt::format("{} {}, {}", added_mass ? "A" : "B", set.mode_name(i), set.mode_name(j)), unit.name};
       for (const FrequencyCoefficients* f : at)
         row.push_back(number(added_mass ? f->A(i, j) : f->B(i, j), unit.factor));
       row.push_back(added_mass ? number(c.A_inf(i, j), unit.factor) : "0");
@@ -90,7 +90,7 @@ ReportTable excitation_table(const HydroSet& set, int hull, int heading) {
   table.header = {"rad/s"};
   for (int i = 0; i < 6; ++i) {
     static constexpr std::array<const char*, 6> kNames = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
-    table.header.push_back(std::string(kNames[i]) + " " + excitation_unit(i).unit);
+    table.header.push_back(std::string(kNames[i]) + " " + excitation_unit(i).name);
     table.header.push_back("deg");
   }
   for (const int f : spread(static_cast<int>(X.frequencies.size()), kExcitationRows)) {
@@ -112,20 +112,20 @@ ReportTable excitation_table(const HydroSet& set, int hull, int heading) {
 
 ShownUnit added_mass_unit(int i, int j) {
   static constexpr std::array<const char*, 3> kUnits = {"t", "t m", "t m2"};
-  return {1e-3, kUnits[rotations(i, j)]};
+  return {kUnits[rotations(i, j)], 1e3};
 }
 
 ShownUnit damping_unit(int i, int j) {
   static constexpr std::array<const char*, 3> kUnits = {"kN s/m", "kN s", "kN m s"};
-  return {1e-3, kUnits[rotations(i, j)]};
+  return {kUnits[rotations(i, j)], 1e3};
 }
 
 ShownUnit kernel_unit(int i, int j) {
   static constexpr std::array<const char*, 3> kUnits = {"kN/m", "kN", "kN m"};
-  return {1e-3, kUnits[rotations(i, j)]};
+  return {kUnits[rotations(i, j)], 1e3};
 }
 
-ShownUnit excitation_unit(int i) { return {1e-3, i % 6 < 3 ? "kN/m" : "kN m/m"}; }
+ShownUnit excitation_unit(int i) { return {i % 6 < 3 ? "kN/m" : "kN m/m", 1e3}; }
 
 std::vector<std::pair<int, int>> coupled_pairs(const HydrodynamicCoefficients& set) {
   std::vector<std::pair<int, int>> pairs;

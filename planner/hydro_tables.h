@@ -5,15 +5,11 @@
 #include <vector>
 
 #include "planner/hydro_convergence.h"
+#include "planner/shown_unit.h"
 #include "results/report.h"
 
 namespace stillhook {
 
-/// A power-of-ten-free unit of a quantity: value in SI times `factor` is in `unit`.
-struct ShownUnit {
-  double factor = 1.0;
-  std::string unit;
-};
 /// Units of A_ij (t, t m, t m2), B_ij (kN s/m ...), K_ij (kN/m per s ...), X_i (kN/m, kN m/m).
 ShownUnit added_mass_unit(int i, int j);
 ShownUnit damping_unit(int i, int j);

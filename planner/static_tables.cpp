@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "planner/natural_periods.h"
 #include "planner/text_number.h"
 #include "planner/vessel_statics.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Vector3 world_point(const Model& model, const StaticPose& pose, const std::string& body, const Vector3& p_B) {
   const int index = model.body_index(body);

@@ -1,11 +1,11 @@
 #include "planner/vessel_statics.h"
 
-#include <numbers>
 
 #include "planner/text_number.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/immersion.h"
 #include "sim/multibody/assembly.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
@@ -53,7 +53,6 @@ Burden burden_of(const Model& model, const StaticPose& pose, int hull) {
 }  // namespace
 
 std::vector<ReportTable> vessel_tables(const Model& model, const std::vector<StaticPose>& poses) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   std::vector<ReportTable> tables;
   const std::vector<BodySpec>& bodies = model.specification().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

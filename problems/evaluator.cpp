@@ -9,11 +9,11 @@
 
 #include "problems/scenarios.h"
 #include "sim/simulate.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFailedObjective = 1000.0;  // terms are of order 1
 constexpr std::size_t kHeader = 2;           // status and reached, before the metrics in `details`
 

@@ -10,11 +10,11 @@
 #include "problems/tangent_run.h"
 #include "results/changed_run.h"
 #include "sim/simulate.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 }
 
 Eigen::VectorXd Evaluator::smooth_values(const Trajectory& run, const SmoothOptions& smooth) const {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <set>
+
+#include "sim/spatial/constants.h"
 
 namespace stillhook::archive {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Names of variables that are not channels, and of dimensions; no channel's variable may take one.
 const std::set<std::string> kReserved = {"time",        "channel", "operation_phase", "contact_event",

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "results/metric_list.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
 using Stage = PhaseSpec::Stage;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// First instant from `from` on at which no pickup contact has a force; NaN if there is none in the run.
 double first_lift_off(const RunView& view, double from) {

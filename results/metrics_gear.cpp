@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "results/metric_list.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
 using Stage = PhaseSpec::Stage;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Ratios {
   Peak largest, smallest;

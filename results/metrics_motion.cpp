@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "results/metric_list.h"
+#include "sim/spatial/constants.h"
 #include "sim/spatial/pose.h"
 
 namespace stillhook {
 namespace {
 
 using Stage = PhaseSpec::Stage;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The swing of the load at every sample of a phase: (x, y) relative to the static offset, m.
 struct Swing {

@@ -32,7 +32,7 @@ struct Scale {
   double operator()(double v) const { return from + (v - low) / (high - low) * (to - from); }
 };
 
-struct Frame {
+struct Axes {
   double left, right, top, bottom;
   Scale x, y;
 };
@@ -91,7 +91,7 @@ std::string text(double x, double y, const char* anchor, const std::string& cont
 }
 
 /// One line's path in tenths of a unit, whole numbers and relative moves: half the bytes of decimals.
-std::string path_of(const PlotLine& line, const Frame& f, int columns) {
+std::string path_of(const PlotLine& line, const Axes& f, int columns) {
   std::string d;
   long x0 = 0, y0 = 0;
   bool pen_down = false;
@@ -112,7 +112,7 @@ std::string path_of(const PlotLine& line, const Frame& f, int columns) {
   return d;
 }
 
-std::string draw_phases(const Plot& plot, const Frame& f) {
+std::string draw_phases(const Plot& plot, const Axes& f) {
   std::string out;
   for (std::size_t i = 0; i < plot.phases.size(); ++i) {
     const double x0 = std::clamp(f.x(plot.phases[i].start), f.left, f.right);
@@ -132,7 +132,7 @@ std::string draw_phases(const Plot& plot, const Frame& f) {
   return out;
 }
 
-std::string draw_axes(const Plot& plot, const Frame& f, const std::vector<double>& y_ticks,
+std::string draw_axes(const Plot& plot, const Axes& f, const std::vector<double>& y_ticks,
                       const std::vector<double>& x_ticks) {
   std::string out;
   const double y_step = y_ticks[1] - y_ticks[0], x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
@@ -154,7 +154,7 @@ std::string draw_axes(const Plot& plot, const Frame& f, const std::vector<double
   return out;
 }
 
-std::string draw_limits(const Plot& plot, const Frame& f) {
+std::string draw_limits(const Plot& plot, const Axes& f) {
   std::vector<const PlotLimit*> drawn;
   for (const PlotLimit& limit : plot.limits)
     if (limit.value >= f.y.low && limit.value <= f.y.high) drawn.push_back(&limit);
@@ -176,7 +176,7 @@ std::string draw_limits(const Plot& plot, const Frame& f) {
   return out;
 }
 
-std::string draw_markers(const Plot& plot, const Frame& f) {
+std::string draw_markers(const Plot& plot, const Axes& f) {
   std::string out;
   double free_from = -1e9;
   for (const PlotMarker& marker : plot.markers) {
@@ -194,7 +194,7 @@ std::string draw_markers(const Plot& plot, const Frame& f) {
   return out;
 }
 
-std::vector<LegendEntry> legend_of(const Plot& plot, const Frame& f) {
+std::vector<LegendEntry> legend_of(const Plot& plot, const Axes& f) {
   using Kind = LegendEntry::Kind;
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < plot.lines.size(); ++i)
@@ -309,7 +309,7 @@ std::vector<std::pair<double, double>> thin_out(const PlotLine& line, double low
 std::string draw_plot(const Plot& plot) {
   const std::vector<double> y_ticks = value_ticks(plot);
   const auto [t0, t1] = time_range(plot);
-  Frame f{kMarginLeft, plot.width - kMarginRight, 0.0, 0.0, {}, {}};
+  Axes f{kMarginLeft, plot.width - kMarginRight, 0.0, 0.0, {}, {}};
   f.y = {y_ticks.front(), y_ticks.front() + span_of(y_ticks), 1.0, 0.0};
   const auto [legend, rows] = draw_legend(legend_of(plot, f), f.left, f.right, kTitleRow + 13.0);
   f.top = kTitleRow + rows * kLegendRow + 4.0 + (plot.phases.empty() ? 0.0 : kPhaseStrip);

@@ -9,12 +9,12 @@
 #include "results/html.h"
 #include "results/series_codec.h"
 #include "sim/sea/wave_field.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTonne = 9806.65;  // N
 
 Json numbers(const Vector3& v) { return {v.x(), v.y(), v.z()}; }

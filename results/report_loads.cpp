@@ -6,13 +6,12 @@
 
 #include "results/html.h"
 #include "results/report_parts.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s2
-constexpr double kTonne = 1000.0 * kGravity;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTonne = 1000.0 * kStandardGravity;
 
 std::vector<const WireSpec*> hoist_wires(const Specification& s) {
   std::vector<const WireSpec*> wires;
@@ -168,7 +167,7 @@ std::string loads_part(const ReportData& data, const RunView& view) {
       const PhaseLoad at = phase_load(view, wires, p);
       hook_load = std::max({hook_load, at.static_start, at.static_end});
     }
-    const double weight = load->mass * kGravity;
+    const double weight = load->mass * kStandardGravity;
     out += fmt::format(
         "<p>Gross weight W of the load {} t (the mass in the case; no contingency is added: 0027/ND asks for 1.03 on a "
         "weighed weight, 1.05 on class A, 1.10 on class B and C). Static hook load SHL {} t, the largest of the "

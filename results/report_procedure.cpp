@@ -8,12 +8,11 @@
 #include "results/html.h"
 #include "results/pose_drawing.h"
 #include "results/report_parts.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s2
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
@@ -154,7 +153,7 @@ std::string poses_table(const ReportData& data, const std::vector<StaticPose>& p
   rows.push_back({"wire tensions, t"});
   for (const WireSpec& wire : s.wires)
     add_row(rows, escape_html(readable_name(wire.name)), poses, 1,
-            [&](auto& p) { return value_of(p, wire.name + ".tension") / 1000.0 / kGravity; });
+            [&](auto& p) { return value_of(p, wire.name + ".tension") / 1000.0 / kStandardGravity; });
   rows.push_back({"stretched wire lengths, m"});
   for (const WireSpec& wire : s.wires)
     add_row(rows, escape_html(readable_name(wire.name)), poses, 2,
@@ -162,7 +161,7 @@ std::string poses_table(const ReportData& data, const std::vector<StaticPose>& p
   rows.push_back({"contact forces, t"});
   for (const ContactSpec& contact : s.contacts)
     add_row(rows, escape_html(readable_name(contact.name)), poses, 1,
-            [&](auto& p) { return value_of(p, contact.name + ".force") / 1000.0 / kGravity; });
+            [&](auto& p) { return value_of(p, contact.name + ".force") / 1000.0 / kStandardGravity; });
 
   Rows filled;  // headings with nothing under them go
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -193,7 +192,7 @@ std::string gear_sentences(const Specification& s) {
                        fixed_number(line.kp * std::numbers::pi / 180.0 / 1000.0, 1),
                        fixed_number(line.kd * std::numbers::pi / 180.0 / 1000.0, 1),
                        line.gain_schedule.empty() ? "" : " times factors over the fall length",
-                       fixed_number(line.tension_max / 1000.0 / kGravity, 1),
+                       fixed_number(line.tension_max / 1000.0 / kStandardGravity, 1),
                        line.speed_max > 0.0 ? "to " + fixed_number(60.0 * line.speed_max, 1) + " m/min" : "unlimited");
   return out;
 }
@@ -236,7 +235,7 @@ std::string procedure_part(const ReportData& data, const RunView& view) {
     rows.push_back({std::to_string(p + 1) + " " + escape_html(readable_name(records[p].name)),
                     clock_time(records[p].start), clock_time(records[p].end - records[p].start),
                     moves_text(data, view, p, *phase), hold_point(*phase, records[p]),
-                    fixed_number(load / 1000.0 / kGravity, 0)});
+                    fixed_number(load / 1000.0 / kStandardGravity, 0)});
   }
   return html_table({"step", "start", "duration", "what moves, how far, at what speed at most", "hold point before it",
                      "static hook load at its end, t"},

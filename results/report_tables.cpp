@@ -6,11 +6,11 @@
 
 #include "results/html.h"
 #include "results/report_parts.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s2, for tonnes-force of a tension
 
 std::string cell(const std::string& name, const std::string& unit, double value) {
   const Shown shown = show_metric(name, unit, value);
@@ -67,7 +67,7 @@ Shown show_metric(const std::string& name, const std::string& unit, double value
   const auto minutes = [&] { return fixed_number(60.0 * value, 2) + " m/min"; };
   if (unit == "kN")
     return {fixed_number(value, std::abs(value) < 100.0 ? 1 : 0), unit,
-            fixed_number(value / kGravity, std::abs(value) < 1000.0 ? 2 : 1) + " t"};
+            fixed_number(value / kStandardGravity, std::abs(value) < 1000.0 ? 2 : 1) + " t"};
   if (unit == "m/s")
     return {fixed_number(value, 3), unit, name.starts_with("winch") || name.starts_with("tagline") ? minutes() : ""};
   if (unit == "s") return {fixed_number(value, 1), unit, value >= 60.0 ? clock_time(value) : ""};
@@ -169,7 +169,7 @@ std::string contacts_part(const ReportData& data) {
     rows.push_back({escape_html(readable_name(c.contact)),
                     kind == "re-hit" ? "<span class=\"fail\">re-hit</span>" : kind, event_time(c.start),
                     fixed_number(c.end - c.start, 1), fixed_number(c.approach_speed, 3),
-                    fixed_number(c.peak_force / 1000.0 / kGravity, 1), fixed_number(c.impulse / 1000.0, 1),
+                    fixed_number(c.peak_force / 1000.0 / kStandardGravity, 1), fixed_number(c.impulse / 1000.0, 1),
                     fmt::format("{}, {}, {}", fixed_number(c.place.x(), 2), fixed_number(c.place.y(), 2),
                                 fixed_number(c.place.z(), 2)),
                     phase_cell(c.phase)});

@@ -5,11 +5,11 @@
 #include <numeric>
 
 #include "sim/samples.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A contact that carries less than this (N) in a static pose is open; the smallest loads of interest weigh tonnes.
 constexpr double kOpenContact = 100.0;
 

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "results/run_view.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
 using Stage = PhaseSpec::Stage;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Integral of f(sample) over a phase from start to end, the ends between samples by linear interpolation.
 double window_integral(const RunView& view, std::size_t phase, const std::function<double(std::size_t)>& f) {

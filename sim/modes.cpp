@@ -11,8 +11,8 @@ namespace stillhook {
 namespace {
 
 constexpr double kCalm = -1.0;  // s: before the waves start
-constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-6;   // of a frequency, relative
+constexpr int kMaxFrequencySteps = 60;
+constexpr double kFrequencyTolerance = 1e-6;   // of a frequency, relative
 constexpr double kSlowest = 1e-3;     // rad/s: below this a motion has no restoring stiffness
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNamedShare = 0.15;  // of the kinetic energy: what a label names
@@ -117,11 +117,11 @@ std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium) const {
     VectorX shape = start.shape.col(i);
     MatrixX M = system.mass();
     bool converged = hulls_.empty() || frequency_of(square) == 0.0;
-    for (int k = 0; k < kMaxIterations && !converged; ++k) {
+    for (int k = 0; k < kMaxFrequencySteps && !converged; ++k) {
       M = mass_at(std::sqrt(std::max(square, kSlowest * kSlowest)));
       const Eigensystem next = solve(K, M, Z);
       const int j = nearest(next, M, shape);
-      converged = std::abs(next.square[j] - square) < 2.0 * kTolerance * std::abs(square);
+      converged = std::abs(next.square[j] - square) < 2.0 * kFrequencyTolerance * std::abs(square);
       square = next.square[j];
       shape = next.shape.col(j);
     }

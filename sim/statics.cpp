@@ -12,7 +12,7 @@ constexpr double kCalm = -1.0;  // s: before the waves start
 // first has to take up slack. A slope below no_grip() is none.
 constexpr double kProbes[] = {1e-3, 0.3, -0.3, 3.0, -3.0};
 constexpr double kLargestStep = 3.0;  // of a drive in one iteration, m
-constexpr int kMaxIterations = 60;
+constexpr int kMaxGoalSteps = 60;
 constexpr int kHalvings = 6;  // of a step of the drives that leaves the region where an equilibrium is found
 
 std::string describe(const CoordinateSpec& c) {
@@ -77,7 +77,7 @@ void solve_static(const Model& model, SystemState& state, const std::vector<Stat
     return f;
   };
   VectorX f = miss(state);
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxGoalSteps; ++iteration) {
     bool reached = true;
     for (int i = 0; i < n; ++i) reached = reached && std::abs(f[i]) < tolerance_of(goals[i]);
     if (reached) return;

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0, kG = 9.80665;
 
 const std::vector<MeasuredUnit>& units() {
   static const std::vector<MeasuredUnit> all = {
@@ -18,7 +18,7 @@ const std::vector<MeasuredUnit>& units() {
       {"mrad", "rad", 1e-3, 0.0},     {"m/s", "m/s", 1.0, 0.5},        {"mm/s", "m/s", 1e-3, 0.5},
       {"m/min", "m/s", 1.0 / 60.0, 0.5}, {"deg/s", "rad/s", kDegree, -0.5}, {"rad/s", "rad/s", 1.0, -0.5},
       {"N", "N", 1.0, 3.0},           {"kN", "N", 1e3, 3.0},           {"MN", "N", 1e6, 3.0},
-      {"t", "N", 1e3 * kG, 3.0},      {"kgf", "N", kG, 3.0},           {"N m", "N m", 1.0, 4.0},
+      {"t", "N", 1e3 * kStandardGravity, 3.0},      {"kgf", "N", kStandardGravity, 3.0},           {"N m", "N m", 1.0, 4.0},
       {"kN m", "N m", 1e3, 4.0},      {"MN m", "N m", 1e6, 4.0},       {"m3", "m3", 1.0, 3.0},
       {"1", "1", 1.0, 0.0}};
   return all;
@@ -40,7 +40,7 @@ constexpr Mistake kMistakes[] = {
     {1e3, "m/s", "as mm/s taken for m/s", "as m/s taken for mm/s"},
     {60.0, "m/s", "as m/min taken for m/s", "as m/s taken for m/min"},
     {1e3, "N", "as newtons taken for kilonewtons", "as kilonewtons taken for newtons"},
-    {1e3 * kG, "N", "as newtons taken for tonnes", "as tonnes taken for newtons"},
+    {1e3 * kStandardGravity, "N", "as newtons taken for tonnes", "as tonnes taken for newtons"},
     {1e3, "N m", "as N m taken for kN m", "as kN m taken for N m"}};
 
 }  // namespace

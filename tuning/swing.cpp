@@ -13,13 +13,13 @@
 #include "sim/modes.h"
 #include "sim/multibody/hht_tangent.h"
 #include "sim/simulate.h"
+#include "sim/spatial/constants.h"
 #include "sim/statics.h"
 
 namespace stillhook {
 namespace {
 
 constexpr double kCalm = -1.0;  // s, before the waves start
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPullShare = 0.5;  // of a cycle in which a line that only pulls acts
 
 Specification without_taglines(Specification specification) {

@@ -10,7 +10,7 @@ namespace stillhook {
 namespace {
 
 // Each local run starts with this share of the previous one's first step.
-constexpr double kStepReduction = 0.3;
+constexpr double kRestartReduction = 0.3;
 // A population sees at least this many generations, or it is a random search.
 constexpr int kGenerations = 3;
 // Below this ISRES, which keeps a seventh, would be left with one survivor.
@@ -106,7 +106,7 @@ class Sequence {
     if (options_.local_algorithm.empty()) return;
     const bool stepping = !find_solver(options_.local_algorithm)->gradient;
     for (double step = options_.initial_step; left() > 0 && !stopped_ && step > options_.x_tolerance;
-         step *= kStepReduction) {
+         step *= kRestartReduction) {
       SolveOptions stage = stage_options(options_.local_algorithm, left());
       stage.initial_step = step;
       stage.x_tolerance = options_.x_tolerance;

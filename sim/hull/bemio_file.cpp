@@ -7,13 +7,13 @@
 #include <sstream>
 
 #include "sim/hull/hdf5_file.h"
+#include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kUniform = 1e-4;  // of a time step: written in single precision by some
+constexpr double kUniformStep = 1e-4;  // of a time step: written in single precision by some
 constexpr double kPeriod = 1e-3;   // of w T / 2 pi - 1
 
 class BemioReader {
@@ -148,12 +148,12 @@ void BemioReader::read_radiation(std::size_t body, HydrodynamicCoefficients& c) 
 void BemioReader::read_retardation(std::size_t body, HydrodynamicCoefficients& c) const {
   const std::string name = body_name(body) + "/hydro_coeffs/radiation_damping/impulse_response_fun/";
   const std::vector<double> t = list(name + "t");
-  if (t.size() < 2 || std::abs(t[0]) > kUniform * (t[1] - t[0])) file_.fail(name + "t must begin at 0");
+  if (t.size() < 2 || std::abs(t[0]) > kUniformStep * (t[1] - t[0])) file_.fail(name + "t must begin at 0");
   const double interval = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
   for (std::size_t m = 0; m < t.size(); ++m)
-    if (!(interval > 0.0) || std::abs(t[m] - t[0] - interval * static_cast<double>(m)) > kUniform * interval * 10.0)
+    if (!(interval > 0.0) || std::abs(t[m] - t[0] - interval * static_cast<double>(m)) > kUniformStep * interval * 10.0)
       file_.fail(name + "t must be evenly spaced");
-  if (body > 0 && std::abs(interval - c.retardation.interval) > kUniform * interval)
+  if (body > 0 && std::abs(interval - c.retardation.interval) > kUniformStep * interval)
     file_.fail(name + "t differs from that of another body");
   c.retardation.interval = interval;
   const Hdf5Array K = shaped(name + "K", {6, modes_, t.size()});

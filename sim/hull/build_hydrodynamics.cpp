@@ -14,8 +14,6 @@
 namespace stillhook {
 namespace {
 
-std::string entry_of(const BodySpec& spec) { return "bodies." + spec.name + ".hydrodynamics"; }
-
 double reference_height_of(const std::vector<HydrodynamicsBody>& bodies, std::size_t i) {
   const std::array<HullAfloat, 1> first{bodies.front().afloat};
   return i == 0 ? 0.0 : reference_height(first, bodies[i].afloat);
@@ -208,7 +206,7 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
                                                   std::shared_ptr<const WaveField> waves, const SeaSpec& sea,
                                                   const PanelMethodSpec& method, std::vector<std::string>& warnings,
                                                   const HydrodynamicsOptions& options) {
-  using Model = HydrodynamicsSpec::RadiationModel;
+  using RadiationModel = HydrodynamicsSpec::RadiationModel;
   std::vector<HydrodynamicsHull> hulls;
   std::vector<double> diffraction_factors;
   bool nothing = !set;
@@ -250,14 +248,14 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
     std::vector<const BodySpec*> specs;
     for (const HydrodynamicsBody& body : bodies) specs.push_back(body.afloat.body);
     const VectorX memory = mode_factors(specs, &HydrodynamicsSpec::radiation_factor);
-    const Model model = h.radiation != Model::automatic ? h.radiation : table ? Model::retardation : Model::reduced;
+    const RadiationModel model = h.radiation != RadiationModel::automatic ? h.radiation : table ? RadiationModel::retardation : RadiationModel::reduced;
     try {
-      if (model == Model::retardation && !c.retardation.empty()) {
+      if (model == RadiationModel::retardation && !c.retardation.empty()) {
         radiation = std::make_unique<RadiationMemory>(
             scaled(truncated(c.retardation, options.kernel_tolerance), memory), modes);
-      } else if (model == Model::reduced) {
+      } else if (model == RadiationModel::reduced) {
         radiation = std::make_unique<StateSpaceRadiation>(scaled(*state_space_for(set, method.fit_tolerance), memory));
-      } else if (model == Model::direct) {
+      } else if (model == RadiationModel::direct) {
         std::vector<HullAfloat> afloat;
         for (const HydrodynamicsBody& body : bodies) afloat.push_back(body.afloat);
         auto march = march_for(afloat, sea, method, march_key(afloat, sea, method));

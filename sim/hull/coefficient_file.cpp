@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "sim/hull/coefficient_text.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kReciprocity = 0.02;               // relative to the geometric mean of the diagonals
 constexpr double kUniform = 1e-6;                   // relative deviation of a time step from the first
 constexpr double kLargestSpacing = 90.5 * kDegree;  // rad between neighbouring headings

@@ -95,8 +95,6 @@ Set stored(const HydrodynamicCoefficients& set, const std::filesystem::path& fil
 
 double rounded_draft(double waterline) { return kDraftStep * std::round(waterline / kDraftStep); }
 
-std::string entry_of(const BodySpec& body) { return "bodies." + body.name + ".hydrodynamics"; }
-
 /// A file of the project's own format, read again only when it has changed: every model of a search asks for it.
 Set read_table(const std::string& path) {
   struct Entry {

@@ -21,6 +21,9 @@ namespace stillhook {
 /// Share done in [0, 1] and what is being done; false ends the computation.
 using HydroProgress = std::function<bool(double, const std::string&)>;
 
+/// The section of the case that an error of this body's coefficients names.
+inline std::string entry_of(const BodySpec& body) { return "bodies." + body.name + ".hydrodynamics"; }
+
 /// A body's hull in its initial equilibrium. The panel method takes it upright: heel and trim are left out.
 struct HullAfloat {
   const BodySpec* body = nullptr;

@@ -1,16 +1,15 @@
 #include <cmath>
 #include <iomanip>
-#include <numbers>
 #include <sstream>
 
 #include "sim/hull/coefficient_file.h"
 #include "sim/hull/whole_file.h"
+#include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 class CoefficientWriter {
  public:

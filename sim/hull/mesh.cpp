@@ -10,7 +10,6 @@ namespace stillhook {
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 1'000'000;
 
 // Builds the six faces of a box from the points of a lattice, numbering each surface point once.
 class BoxSurface {

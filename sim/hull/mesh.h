@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ class MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// The largest mesh that is read or made by refinement.
+inline constexpr std::size_t kMostTriangles = 1'000'000;
 
 struct Mesh {
   std::vector<Vector3> vertices;              // m, in B

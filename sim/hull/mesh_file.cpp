@@ -14,7 +14,6 @@ namespace stillhook {
 namespace {
 
 constexpr std::uintmax_t kMostBytes = 256u << 20;
-constexpr std::size_t kMostTriangles = 1'000'000;
 constexpr double kFarthest = 1e5;  // m, a hull does not reach further from its origin
 
 [[noreturn]] void fail(const std::string& where, const std::string& sentence) {

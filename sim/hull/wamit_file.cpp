@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "sim/hull/wamit_text.h"
+#include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Mod and Pha are printed with 6 digits; a phase in radians, or of the other sign, is far outside.
 constexpr double kSameForce = 1e-2;
 

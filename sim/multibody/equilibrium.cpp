@@ -6,8 +6,8 @@
 namespace stillhook {
 namespace {
 
-constexpr int kMaxIterations = 600;
-constexpr double kTolerance = 1e-9;  // out-of-balance force over the largest weight
+constexpr int kMaxNewtonSteps = 600;
+constexpr double kForceTolerance = 1e-9;  // out-of-balance force over the largest weight
 // Then it is polished while each iteration takes away this factor, down to rounding: derivatives of an equilibrium are
 // differences of two of them.
 constexpr double kPolish = 0.2;
@@ -95,7 +95,7 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
   VectorX Q(n), C, b(n + m);
   double shift = close_to_it ? kSmallestShift : 1.0, last = -1.0, polished = 0.0;
   if (static_cast<int>(state.element_state.size()) != system.element_state_size()) system.start_elements(state, work);
-  for (report.iterations = 0; report.iterations < kMaxIterations; ++report.iterations) {
+  for (report.iterations = 0; report.iterations < kMaxNewtonSteps; ++report.iterations) {
     system.forces(state, 0.0, work, Q);
     system.constraint_jacobian(state, C_q);
     system.constraint_values(state, C);
@@ -105,7 +105,7 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
     report.worst_body = system.bodies[worst / 6].name;
     if (!std::isfinite(report.residual)) return report;
     const double gap = m > 0 ? C.cwiseAbs().maxCoeff() : 0.0;
-    const bool close = report.residual < kTolerance && gap < 1e-10;
+    const bool close = report.residual < kForceTolerance && gap < 1e-10;
     if (close && report.converged && !(report.residual < kPolish * polished)) {
       system.settle_elements(state, work);
       return report;

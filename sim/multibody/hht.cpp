@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/spatial/constants.h"
+
 namespace stillhook {
 
 namespace {
@@ -15,7 +17,6 @@ constexpr double kFreshRate = 0.1;
 constexpr double kTrustedRate = 0.01;
 // A correction of less than this share of the largest coordinate or acceleration is rounding: it would not get smaller.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
-constexpr double kGravity = 9.80665;  // m/s2, the measure of accelerations
 // A correction of this size in one step (m, rad) is no longer motion.
 constexpr double kRunaway = 1e3;
 // Time to either side over which start() takes the rate of the acceleration, s: short against a stiff wire's period,
@@ -161,7 +162,7 @@ bool HhtStepper::iterate(const SystemState& from, double h, Renew renew) {
     rate_ = k > 0 ? size / last : std::max(rate_, kTrustedRate);
     if (size < kRounding * (reach_ / (beta_ * h * h) + next_.acceleration.cwiseAbs().maxCoeff())) return true;
     // What is left after this correction is about rate/(1 - rate) times it.
-    if (size * rate_ <= kGravity * options_.tolerance * std::max(1.0 - rate_, 0.1)) return true;
+    if (size * rate_ <= kStandardGravity * options_.tolerance * std::max(1.0 - rate_, 0.1)) return true;
     if (renew != Renew::always && k > 0 && rate_ > kSlowRate) return false;
     last = size;
   }

@@ -33,10 +33,6 @@ Layout layout_of(JointSpec::Type type) {
   return {3, {}, {}};
 }
 
-Matrix3 rotation_of(int body, const Instant& now) { return body == kWorld ? Matrix3::Identity() : now.body[body].R_WB; }
-
-Vector3 spin_of(int body, const Instant& now) { return body == kWorld ? Vector3::Zero() : now.body[body].w_B; }
-
 // Acceleration of a point that the body has at zero dv, dw.
 Vector3 centripetal(const BodyPoint& point, const Instant& now) {
   if (point.body == kWorld) return Vector3::Zero();

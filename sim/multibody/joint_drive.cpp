@@ -7,10 +7,6 @@ namespace {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-Matrix3 rotation_of(int body, const Instant& now) { return body == kWorld ? Matrix3::Identity() : now.body[body].R_WB; }
-
-Vector3 spin_of(int body, const Instant& now) { return body == kWorld ? Vector3::Zero() : now.body[body].w_B; }
-
 }  // namespace
 
 JointDrive::JointDrive(std::string name, Joint joint, double stiffness, double damping, double rest, int drive)

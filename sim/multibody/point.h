@@ -20,6 +20,16 @@ struct PointMotion {
 
 PointMotion motion_of(const BodyPoint& point, const Instant& now);
 
+/// R_WB of a body; the identity for the world.
+inline Matrix3 rotation_of(int body, const Instant& now) {
+  return body == kWorld ? Matrix3::Identity() : now.body[body].R_WB;
+}
+
+/// Angular velocity w_B of a body in its own frame, rad/s; zero for the world.
+inline Vector3 spin_of(int body, const Instant& now) {
+  return body == kWorld ? Vector3::Zero() : now.body[body].w_B;
+}
+
 /// dp_T = P xi with P (3 x 6). For the world the result is zero.
 Eigen::Matrix<double, 3, 6> position_jacobian(const BodyPoint& point, const Instant& now);
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "sim/spatial/constants.h"
 
 namespace stillhook::rankine {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // Longest wave over shortest in a part of the band is the square of this.
 constexpr double kBandRatio = 1.6;
 // Cells in the shortest wave of a part: away from the hull, and at it; panels of the hull in it.

@@ -1,12 +1,12 @@
 #include "sim/hull/rankine/boundary_problem.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "sim/spatial/constants.h"
 
 namespace stillhook::rankine {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 Vector3 reflected(const Vector3& x, int image) {
   return {image & 1 ? -x.x() : x.x(), image & 2 ? -x.y() : x.y(), image & 4 ? -x.z() : x.z()};

@@ -1,15 +1,14 @@
 #include "sim/hull/rankine/panel_march.h"
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
+#include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
 namespace stillhook::rankine {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // Cells in the shortest wave: at the hull, and as far as that wave reaches; in the longest wave, beyond.
 constexpr double kCellsPerWave = 16.0, kCellsPerShortestWave = 8.0, kCellsPerLongestWave = 20.0, kGrowth = 0.12;
 // The beach: width in longest waves, and its strength over the geometric mean of the band's ends.
