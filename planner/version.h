@@ -2,7 +2,7 @@
 
 namespace stillhook {
 
-/// The program's version, as in CMakeLists.txt.
-inline constexpr const char* kVersion = "0.1.0";
+/// The program's version: that of the project in CMakeLists.txt.
+extern const char* const kVersion;
 
 }  // namespace stillhook

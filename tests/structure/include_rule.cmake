@@ -4,6 +4,23 @@
 set(rooms sim results problems tuning planner)
 set(violations "")
 
+# Which files may see the headers of a wrapped library: "pattern of the header|pattern of the file|name".
+set(wrapped
+  "<nlopt|^problems/search/nlopt_search\\.cpp$|NLopt"
+  "<Ip[A-Z]|^problems/search/ipopt_search\\.cpp$|Ipopt"
+  "toml\\+\\+|^problems/case_document\\.cpp$|toml++"
+  "<sqlite3|^problems/search/store\\.cpp$|SQLite"
+  "<ceres/ceres|^tuning/fit\\.cpp$|Ceres"
+  "<glog|^tuning/fit\\.cpp$|glog"
+  "<ceres/jet|^sim/|the dual numbers of Ceres"
+  "<fcl|^results/clearance\\.cpp$|FCL"
+  "<netcdf|^results/netcdf_file\\.(h|cpp)$|NetCDF"
+  "<hdf5|^(sim/hull/hdf5_file|results/netcdf_file)\\.cpp$|HDF5"
+  "<xlsxwriter|^results/export_xlsx\\.cpp$|libxlsxwriter"
+  "<CLI/|^planner/cli/command_(line|tree)\\.cpp$|CLI11"
+  "<spdlog/|^planner/cli/|spdlog"
+  "<nlohmann/|^(results|problems|planner)/|nlohmann-json")
+
 foreach(room IN LISTS rooms)
   list(FIND rooms ${room} position)
   math(EXPR next "${position} + 1")
@@ -23,12 +40,16 @@ foreach(room IN LISTS rooms)
           list(APPEND violations "${name}: ${line}: ${room} may not see ${other}")
         endif()
       endforeach()
-      if(line MATCHES "<nlopt" AND NOT name STREQUAL "problems/search/nlopt_search.cpp")
-        list(APPEND violations "${name}: ${line}: only problems/search/nlopt_search.cpp may see NLopt")
-      endif()
-      if(line MATCHES "toml\\+\\+" AND NOT name STREQUAL "problems/case_document.cpp")
-        list(APPEND violations "${name}: ${line}: only problems/case_document.cpp may see toml++")
-      endif()
+      foreach(rule IN LISTS wrapped)
+        string(REPLACE "|^" ";^" parts "${rule}")
+        list(GET parts 0 header)
+        list(GET parts 1 rest)
+        string(REGEX REPLACE ".*[|]" "" label "${rest}")
+        string(REGEX REPLACE "[|][^|]*$" "" allowed "${rest}")
+        if(line MATCHES "${header}" AND NOT name MATCHES "${allowed}")
+          list(APPEND violations "${name}: ${line}: may not see ${label}")
+        endif()
+      endforeach()
       if(line MATCHES "\"\\.\\./" OR line MATCHES "\"\\./")
         list(APPEND violations "${name}: ${line}: include from the root of the project")
       endif()
