@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "planner/mooring_tables.h"
 #include "planner/natural_periods.h"
 #include "planner/text_number.h"
 #include "planner/vessel_statics.h"
@@ -12,7 +13,6 @@
 
 namespace stillhook {
 namespace {
-
 
 Vector3 world_point(const Model& model, const StaticPose& pose, const std::string& body, const Vector3& p_B) {
   const int index = model.body_index(body);
@@ -125,6 +125,7 @@ std::vector<ReportTable> static_tables(const Model& model, const std::vector<Sta
   for (ReportTable& table : vessel_tables(model, poses)) tables.push_back(std::move(table));
   if (ReportTable angles = angle_table(model, poses); angles.header.size() > 1) tables.push_back(std::move(angles));
   for (ReportTable& table : period_tables(model, poses)) tables.push_back(std::move(table));
+  for (ReportTable& table : mooring_tables(model)) tables.push_back(std::move(table));
   if (model.specification().wires.empty()) return tables;
   const double tonne = 1000.0 * model.specification().sea.gravity;
   tables.push_back(wire_table(model, poses, "Wire tensions", "In t (weight of that mass).", "tension", tonne, 1));

@@ -4,6 +4,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Body, meshGeometry } from "./bodies.js";
 import { Moorings, Wires } from "./lines.js";
+import { bodyMarks, directions } from "./marks.js";
 import { Sea } from "./sea.js";
 
 const SKY = "#e6edf2";
@@ -77,6 +78,8 @@ export class ReplayScene {
     this.size = box.getSize(new THREE.Vector3()).length();
     this.sea = new Sea(this.data.sea, this.middle, SKY, coarse ? 72 : 144);
     this.scene.add(this.sea.mesh);
+    this.scene.add(directions(this.data.sea.components, box));
+    for (const body of this.bodies) bodyMarks(body);
     this.load = this.bodies.find(({ body }) => body.kind === "load") ?? this.bodies[0];
     this.#addTarget();
     this.#addFlash();
