@@ -86,7 +86,8 @@ ExcitationTable mirrored(const ExcitationTable& X, const std::string& source) {
   const auto on_axis = [&](std::size_t h) {
     return X.headings[h] == 0.0 || std::abs(X.headings[h] - std::numbers::pi) <= kSameHeading;
   };
-  // With seas along the hull alone there is no other sway, roll and yaw to compare with: surge and pitch stand for them.
+  // With seas along the hull alone there is no other sway, roll and yaw to compare with: surge and pitch stand for
+  // them.
   VectorX scale = largest_of_mode(X);
   bool beside = false;
   for (std::size_t h = 0; h < given; ++h) beside = beside || !on_axis(h);
@@ -95,7 +96,8 @@ ExcitationTable mirrored(const ExcitationTable& X, const std::string& source) {
     for (int h = 0; h < static_cast<int>(given); ++h)
       for (int i = 1; on_axis(static_cast<std::size_t>(h)) && i < X.modes; i += 2)
         if (std::abs(X.at(f, h, i)) > kMirror * scale(i))
-          fail_heading(source, "sway, roll and yaw must vanish in following and head seas with port_starboard symmetry");
+          fail_heading(source,
+                       "sway, roll and yaw must vanish in following and head seas with port_starboard symmetry");
   std::vector<int> order(given);
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> headings = X.headings;

@@ -20,8 +20,8 @@ std::vector<int> chosen_bodies(int held, const DatabaseFrame& frame, const std::
   }
   if (wanted != 1) throw SpecificationError(source, "", "one body of a database is read for one hull");
   if (frame.chosen > held) {
-    sentence << "holds " << held << (held == 1 ? " body" : " bodies") << ", there is no database_body = "
-             << frame.chosen;
+    sentence << "holds " << held << (held == 1 ? " body" : " bodies")
+             << ", there is no database_body = " << frame.chosen;
     throw SpecificationError(source, "", sentence.str());
   }
   if (held > 1) {
@@ -35,6 +35,7 @@ std::vector<int> chosen_bodies(int held, const DatabaseFrame& frame, const std::
 void cut_frequencies(HydrodynamicCoefficients& c, const DatabaseFrame& frame, const std::string& source) {
   const auto outside = [&](double w) { return w < frame.lowest || w > frame.highest; };
   const std::size_t before = c.frequency.size() + c.excitation.frequencies.size();
+  const bool table = !c.frequency.empty();
   std::erase_if(c.frequency, [&](const FrequencyCoefficients& f) { return outside(f.frequency); });
   ExcitationTable& X = c.excitation;
   ExcitationTable kept{{}, X.headings, X.modes, {}};
@@ -46,14 +47,14 @@ void cut_frequencies(HydrodynamicCoefficients& c, const DatabaseFrame& frame, co
     kept.value.insert(kept.value.end(), from, from + static_cast<std::ptrdiff_t>(row));
   }
   if (c.frequency.size() + kept.frequencies.size() == before) return;
-  if (c.frequency.size() < 2 || (!X.empty() && kept.frequencies.size() < 2)) {
+  if ((table && c.frequency.size() < 2) || (!X.empty() && kept.frequencies.size() < 2)) {
     std::ostringstream sentence;
     sentence << "has fewer than two frequencies from database_lowest_rad_per_s to database_highest_rad_per_s ("
              << frame.lowest << " to " << frame.highest << " rad/s)";
     throw SpecificationError(source, "", sentence.str());
   }
   X = std::move(kept);
-  c.retardation = {};
+  if (table) c.retardation = {};  // computed anew from the B that is left
 }
 
 }  // namespace stillhook

@@ -41,7 +41,8 @@ std::string stiffness_difference(const HydrodynamicCoefficients& set, std::size_
   const double allowed = weight * (kShorter * std::min(xx, yy) + kLonger * std::max(xx, yy));
   if (std::isfinite(C(3, 3)) && std::isfinite(C(4, 4))) {
     const auto matches = [&](double lever) {
-      return std::abs(C(3, 3) - weight * (yy + lever)) <= allowed && std::abs(C(4, 4) - weight * (xx + lever)) <= allowed;
+      return std::abs(C(3, 3) - weight * (yy + lever)) <= allowed &&
+             std::abs(C(4, 4) - weight * (xx + lever)) <= allowed;
     };
     const bool alike = std::abs((C(3, 3) - weight * yy) - (C(4, 4) - weight * xx)) <= allowed;
     if (!alike && !matches(buoyancy) && !matches(buoyancy - heavy)) {
@@ -50,8 +51,9 @@ std::string stiffness_difference(const HydrodynamicCoefficients& set, std::size_
     }
   }
   if (found.tellp() == 0) return {};
-  return set.source + ": the hydrostatic stiffness that comes with the coefficients is not that of the hull: " +
-         found.str() + "; is it the same hull at the same draft, and is database_origin_m right?";
+  return set.source +
+         ": the hydrostatic stiffness that comes with the coefficients is not that of the hull: " + found.str() +
+         "; is it the same hull at the same draft, and is database_origin_m right?";
 }
 
 }  // namespace stillhook
