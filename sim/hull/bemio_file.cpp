@@ -253,7 +253,7 @@ HydrodynamicCoefficients BemioReader::read() {
   if (!file_.exists("/simulation_parameters")) file_.fail("is not a BEMIO file: there is no /simulation_parameters");
   density_ = one("/simulation_parameters/rho");
   gravity_ = one("/simulation_parameters/g");
-  // Older files, and those of other programs, do without: WEC-Sim's own reader takes their numbers as not scaled.
+  // Files of some programs do without, and their numbers are not scaled.
   scaled_ = file_.exists("/simulation_parameters/scaled") && one("/simulation_parameters/scaled") != 0.0;
   if (!(density_ > 0.0) || !(gravity_ > 0.0)) file_.fail("rho and g in /simulation_parameters must be > 0");
   std::vector<std::string> remarks;
