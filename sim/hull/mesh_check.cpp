@@ -143,11 +143,12 @@ Mesh without_inner_parts(const Mesh& mesh, const NestedParts& nested) {
 void check_parts(const Mesh& mesh, const std::string& what) {
   const NestedParts nested = nested_parts(mesh);
   if (nested.overlapping > 0)
-    throw MeshError(what + ": " + count_of(nested.overlapping, "pair of closed surfaces overlaps", "pairs of closed surfaces overlap") +
-                    ", their common volume would count as buoyancy twice; unite the parts of the hull into one surface");
+    throw MeshError(
+        what + ": " +
+        count_of(nested.overlapping, "pair of closed surfaces overlaps", "pairs of closed surfaces overlap") +
+        ", their common volume would count as buoyancy twice; unite the parts of the hull into one surface");
   if (!nested.inner.empty())
-    throw MeshError(what + ": " +
-                    count_of(nested.inner.size(), "closed surface lies", "closed surfaces lie") +
+    throw MeshError(what + ": " + count_of(nested.inner.size(), "closed surface lies", "closed surfaces lie") +
                     " inside another (a tank, or the inner side of plating) and would count as buoyancy twice; take it "
                     "out of the file, or leave it out with mesh_mend = true");
 }
@@ -174,8 +175,7 @@ Mesh mended_mesh(const Mesh& mesh, std::string& done) {
     }
     result.vertices.push_back(middle);
     for (std::size_t i = 0; i < rim.size(); ++i)
-      result.triangles.push_back(
-          {rim[i], rim[(i + 1) % rim.size()], static_cast<int>(result.vertices.size()) - 1});
+      result.triangles.push_back({rim[i], rim[(i + 1) % rim.size()], static_cast<int>(result.vertices.size()) - 1});
   }
   std::vector<int> turn;
   std::size_t left_out = 0;
