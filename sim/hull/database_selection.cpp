@@ -47,7 +47,7 @@ void cut_frequencies(HydrodynamicCoefficients& c, const DatabaseFrame& frame, co
     kept.value.insert(kept.value.end(), from, from + static_cast<std::ptrdiff_t>(row));
   }
   if (c.frequency.size() + kept.frequencies.size() == before) return;
-  if ((table && c.frequency.size() < 2) || (!X.empty() && kept.frequencies.size() < 2)) {
+  if ((table && c.frequency.size() < 2) || (kept.frequencies.size() < 2 && kept.frequencies.size() < X.frequencies.size())) {
     std::ostringstream sentence;
     sentence << "has fewer than two frequencies from database_lowest_rad_per_s to database_highest_rad_per_s ("
              << frame.lowest << " to " << frame.highest << " rad/s)";
