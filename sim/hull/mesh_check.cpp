@@ -117,10 +117,6 @@ class Orientation {
   std::vector<int> outward_;  // the value of turned_ that faces outwards in the triangle's part
 };
 
-bool is_closed(const EdgeMap& edges) {
-  return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 2; });
-}
-
 /// The mesh without the parts that lie inside others.
 Mesh without_inner_parts(const Mesh& mesh, const NestedParts& nested) {
   Mesh result;

@@ -24,6 +24,10 @@ EdgeMap edges_of(const Mesh& mesh) {
   return edges;
 }
 
+bool is_closed(const EdgeMap& edges) {
+  return std::ranges::all_of(edges, [](const auto& edge) { return edge.second.count == 2; });
+}
+
 std::vector<std::vector<int>> rims_of(const Mesh& mesh, const EdgeMap& edges) {
   std::unordered_map<int, int> next;
   for (const auto& t : mesh.triangles)

@@ -20,6 +20,8 @@ using EdgeMap = std::unordered_map<std::uint64_t, EdgeTriangles>;
 
 std::uint64_t edge_key(int a, int b);
 EdgeMap edges_of(const Mesh& mesh);
+/// Every edge has two triangles.
+bool is_closed(const EdgeMap& edges);
 
 /// Rims of holes: closed loops of edges that belong to one triangle only, run against that triangle's own direction.
 std::vector<std::vector<int>> rims_of(const Mesh& mesh, const EdgeMap& edges);

@@ -152,6 +152,7 @@ TEST_CASE("a wetted surface is closed by sides drawn up to a deck") {
   lid.replace(lid.find("\n4\n"), 3, "\n5\n");
   lid += "-10 0 0  10 0 0  10 4 0  -10 4 0\n";
   CHECK(properties_of(read_mesh(folder.write("lid.gdf", lid), options)).volume == Approx(20.0 * 8.0 * 5.5).epsilon(1e-12));
+  CHECK_THAT(complaint(folder.write("lid.gdf", lid)), Contains("closed by the water surface itself"));
   // A whole hull needs none; a hole lower down is no rim.
   CHECK_THAT(complaint(folder.write("box.gdf", kGdf), options), Contains("it needs no mesh_deck_height_m"));
   std::string hole = kWetted;
@@ -160,7 +161,7 @@ TEST_CASE("a wetted surface is closed by sides drawn up to a deck") {
   CHECK_THAT(complaint(folder.write("hole.gdf", hole), options), Contains("of its 8 open edges some lie below"));
 }
 
-TEST_CASE("a moonpool and a deck that is not convex are closed with their own area") {
+TEST_CASE("a deck that is not convex has its own area") {
   const Folder folder;
   // An L of 12 x 10 m with a foot of 4 x 4 m taken away, 2 m deep, seen from above counter-clockwise.
   const double corner[][2] = {{0, 0}, {12, 0}, {12, 4}, {4, 4}, {4, 10}, {0, 10}};

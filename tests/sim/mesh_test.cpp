@@ -173,9 +173,14 @@ TEST_CASE("a mesh that is no hull is refused with the fault and its count") {
   CHECK_THAT(complaint(plane), Contains("only one side"));
 }
 
-// Boxes of two triangles a face, so that no vertex of one need lie in the other.
+// Two triangles a face and no other corners, so that no vertex of one box need lie in another.
 Mesh plain_box(const Vector3& size, const Vector3& centre) {
-  Mesh m = box_mesh(size, centre, size.maxCoeff());
+  Mesh m;
+  for (int i = 0; i < 8; ++i)
+    m.vertices.push_back(centre + 0.5 * Vector3(i & 1 ? size.x() : -size.x(), i & 2 ? size.y() : -size.y(),
+                                                i & 4 ? size.z() : -size.z()));
+  m.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return m;
 }
 
