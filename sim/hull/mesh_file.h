@@ -27,7 +27,8 @@ struct MeshFileOptions {
 
 /// The mesh of a file in the body frame B (m), merged and checked by check_mesh. Throws MeshError with the file's name
 /// and, where there is one, the line; also when it is longer than any vessel, which a file in millimetres is.
-/// With options.mend, `mended` (if given) is what was done, as a sentence, empty if nothing.
+/// `mended` (if given) is what was done with options.mend, and what is doubtful about the file, as a sentence; empty if
+/// nothing.
 Mesh read_mesh(const std::string& path, const MeshFileOptions& options = {}, std::string* mended = nullptr);
 
 }  // namespace stillhook
