@@ -36,8 +36,9 @@ Matrix6 restoring(const Model& model, int body) {
 
 /// One hull in the frame of the databases.
 struct DatabaseHull {
-  Vector3 origin, cg, cb;          // m
-  Matrix6 about_cg, about_origin;  // N/m, N, N m
+  Vector3 origin, cg, cb;         // m
+  Vector3 xbody;                  // m, what WAMIT's moments are about: over Bo in the water plane, (0, 0, 0) for one hull
+  Matrix6 about_cg, about_xbody;  // N/m, N, N m
   double turned = 0.0;             // rad, its heading from that of the first
 };
 
@@ -54,13 +55,14 @@ std::vector<DatabaseHull> database_hulls(const Model& model, const HydroSet& set
     hull.origin = R_HW * (X_WB.p - first.p);
     hull.origin.z() = -set.set->waterline;
     const Vector3 cog = spec.bodies[body].cog - Vector3(0.0, 0.0, height);
+    hull.xbody = Vector3(hull.origin.x(), hull.origin.y(), 0.0);
     hull.cg = hull.origin + cog;
     Mesh mesh = build_hull_mesh(spec.bodies[body].hull);
     for (Vector3& vertex : mesh.vertices) vertex.z() -= height;
     hull.cb = immersion_of(mesh, Pose{Matrix3::Identity(), hull.origin}).centre_of_buoyancy;
     hull.about_cg = restoring(model, body);
-    const Matrix6 back = HeadingFrame(body, cog, 0.0).transform().inverse();
-    hull.about_origin = back.transpose() * hull.about_cg * back;
+    const Matrix6 back = HeadingFrame(body, hull.cg - hull.xbody, 0.0).transform().inverse();
+    hull.about_xbody = back.transpose() * hull.about_cg * back;
     hull.turned = std::remainder(roll_pitch_yaw(X_WB.R).yaw - roll_pitch_yaw(first.R).yaw, 2.0 * M_PI);
     hulls.push_back(hull);
   }
@@ -103,12 +105,13 @@ std::vector<std::string> write_coefficient_files(const std::string& folder, cons
   frame.length = set.set->length;
   std::vector<BemioBody> bodies;
   std::vector<Matrix6> stiffness;
+  WamitUnits units;
   for (std::size_t k = 0; k < hulls.size(); ++k) {
     frame.bodies.push_back({hulls[k].origin, set.set->volume[k]});
     bodies.push_back({set.names[k], hulls[k].cg, hulls[k].cb, hulls[k].about_cg});
-    stiffness.push_back(hulls[k].about_origin);
+    stiffness.push_back(hulls[k].about_xbody);
+    units.reference.push_back(hulls[k].xbody);
   }
-  WamitUnits units;
   units.density = set.set->density;
   units.gravity = set.set->gravity;
   attempt("BEMIO file", {".h5"}, [&] { write_bemio(path + ".h5", tabulated(*set.set), frame, bodies); });

@@ -127,8 +127,14 @@ const Table& hull_table() {
     };
     attitude.only_when("shape", {"mesh"});
     t.boolean("mesh_mend", &S::mesh_mend,
-              "Close small holes and turn triangles that face inwards, instead of refusing the file; the results say so.")
+              "Close small holes, turn triangles that face inwards and leave out closed surfaces inside others (tanks, "
+              "the inner side of plating), instead of refusing the file; the results say so.")
         .only_when("shape", {"mesh"});
+    t.number("mesh_deck_height_m", &S::mesh_deck_height, unit::m, positive(),
+             "For a file with the wetted surface alone, open at the still water, as WAMIT's GDF files are: the sides are "
+             "drawn straight up from the rim to a deck this far above it.")
+        .only_when("shape", {"mesh"})
+        .absent("the file has its own deck");
     t.number("panel_length_m", &S::panel_length, unit::m, positive(), "Wanted edge of a panel.").absent("automatic");
     t.choice<decltype(&S::froude_krylov), S::FroudeKrylov>(
         "froude_krylov", &S::froude_krylov,
@@ -217,7 +223,27 @@ const Table& hydrodynamics_table() {
         .only_when("kind", {"database"});
     t.number("database_length_m", &S::database_length, unit::m, positive(), "WAMIT's ULEN.")
         .only_when("kind", {"database"});
+    t.vector("database_xbody_m", &S::database_xbody, unit::m, any_value(),
+             "WAMIT's XBODY: the point that the moments of the files are about, in the frame of the database. BEMIO "
+             "files name theirs.")
+        .only_when("kind", {"database"});
+    t.integer("database_body", &S::database_body, Range{1.0, 100.0, false},
+              "Which body of a database of several; the waves that the others radiate are left out.")
+        .only_when("kind", {"database"})
+        .absent("the only one");
+    t.number("database_lowest_rad_per_s", &S::database_lowest, unit::rad_per_s, positive(),
+             "Lower frequencies of the database are left out: those that feel the bottom, for example.")
+        .only_when("kind", {"database"})
+        .absent("all are used");
+    t.number("database_highest_rad_per_s", &S::database_highest, unit::rad_per_s, positive(),
+             "Higher frequencies of the database are left out: those with irregular frequencies, for example.")
+        .only_when("kind", {"database"})
+        .absent("all are used");
     t.boolean("port_starboard", &S::port_starboard, "The headings 0 to 180 deg of the database are mirrored.")
+        .only_when("kind", {"database"});
+    t.boolean("axisymmetric", &S::axisymmetric,
+              "A body of revolution about the vertical through the point that the moments are about: one heading of the "
+              "database stands for all.")
         .only_when("kind", {"database"});
     t.number("panel_length_m", &S::panel_length, unit::m, positive(), "Longest panel of the hull.")
         .only_when("kind", {"panels"})

@@ -31,7 +31,8 @@ Mesh hull_mesh(const HullSpec& hull) {
     return plain_box(hull.centre - 0.5 * hull.size, hull.centre + 0.5 * hull.size);
   if (hull.shape != HullSpec::Shape::mesh) return {};
   try {
-    Mesh mesh = read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend});
+    Mesh mesh = read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend,
+                                           hull.mesh_deck_height});
     if (mesh.triangles.size() <= kMostTriangles) return mesh;
   } catch (const MeshError&) {  // the run had it; it is gone since
   }

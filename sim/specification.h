@@ -63,7 +63,8 @@ struct HullSpec {
   double mesh_scale = 1.0;             // metres per unit of the file
   Vector3 mesh_origin = Vector3::Zero();  // m, position in B of the file's origin
   RollPitchYaw mesh_attitude;          // rad, of the file's axes in B
-  bool mesh_mend = false;              // turn triangles that face inwards, close small holes
+  bool mesh_mend = false;              // turn triangles that face inwards, close small holes, leave out inner shells
+  double mesh_deck_height = 0.0;       // m, > 0: closes a wetted surface, deck this far above its rim; 0 = it has a deck
   double panel_length = 0.0;           // m, target edge of a panel; 0 = automatic
   FroudeKrylov froude_krylov = FroudeKrylov::pressure;
 };
@@ -82,7 +83,12 @@ struct HydrodynamicsSpec {
   std::string coefficient_file;             // resolved path (table, database)
   Vector3 database_origin = Vector3::Zero();  // m, Bo in the frame of the database, whose z = 0 is the water (database)
   double database_length = 1.0;             // m, WAMIT's ULEN (database)
+  Vector3 database_xbody = Vector3::Zero();  // m, WAMIT's XBODY: what its moments are about, in the frame of the database
+  int database_body = 0;                    // which body of the database, from 1; 0 = the only one (database)
+  double database_lowest = 0.0;             // rad/s, what the database has below is left out (database)
+  double database_highest = 0.0;            // rad/s, what it has above is left out; 0 = nothing (database)
   bool port_starboard = false;              // headings 0..180 deg of the database are mirrored (database)
+  bool axisymmetric = false;                // a body of revolution: one heading of the database stands for all (database)
   double panel_length = 0.0;                // m, longest panel of the hull; 0 = automatic (panels)
   double added_mass_factor = 1.0;           // 1, > 0, on A_inf (panels, table, database)
   double radiation_factor = 1.0;            // 1, >= 0, on the memory of the radiation, K(t) (panels, table, database)

@@ -13,6 +13,7 @@
 namespace stillhook {
 namespace {
 
+constexpr const char* kKernels = "radiation_damping/impulse_response_fun/K";
 constexpr double kUniformStep = 1e-4;  // of a time step: written in single precision by some
 constexpr double kPeriod = 1e-3;   // of w T / 2 pi - 1
 
@@ -23,7 +24,9 @@ class BemioReader {
         path_(path),
         frame_(frame),
         hulls_(frame.bodies.size()),
-        modes_(6 * hulls_) {}
+        modes_(6 * hulls_) {
+    while (file_.exists("/body" + std::to_string(held_ + 1))) ++held_;
+  }
 
   HydrodynamicCoefficients read();
 
@@ -32,18 +35,31 @@ class BemioReader {
   double one(const std::string& name) const;
   /// Finite numbers of exactly this shape.
   Hdf5Array shaped(const std::string& name, const std::vector<std::size_t>& shape) const;
+  /// A dataset of hydro_coeffs that every body of the set has.
+  bool everywhere(const std::string& dataset) const {
+    for (std::size_t n = 0; n < hulls_; ++n)
+      if (!file_.exists(body_name(n) + "/hydro_coeffs/" + dataset)) return false;
+    return true;
+  }
+  HydrodynamicCoefficients prepared() const;
   double depth() const;
   void read_frequencies();
   void read_radiation(std::size_t body, HydrodynamicCoefficients& c) const;
   void read_retardation(std::size_t body, HydrodynamicCoefficients& c) const;
   void read_excitation(std::size_t body, HydrodynamicCoefficients& c) const;
   Vector3 read_properties(std::size_t body, HydrodynamicCoefficients& c) const;
-  static std::string body_name(std::size_t body) { return "/body" + std::to_string(body + 1); }
+  std::vector<Complex> excitation_of(std::size_t body) const;
+  /// Of body n of the set.
+  std::string body_name(std::size_t n) const { return "/body" + std::to_string(bodies_[n] + 1); }
+  /// Column of the file for mode j of the set.
+  std::size_t column(std::size_t j) const { return 6 * static_cast<std::size_t>(bodies_[j / 6]) + j % 6; }
 
   Hdf5File file_;
   const std::string& path_;
   const DatabaseFrame& frame_;
-  std::size_t hulls_, modes_;
+  std::size_t hulls_, modes_;  // of the set
+  int held_ = 0;               // bodies in the file
+  std::vector<int> bodies_;    // those of the set, from 0
   bool scaled_ = false;
   double density_ = 0.0, gravity_ = 0.0;
   std::vector<double> frequencies_, headings_;  // as in the file
@@ -113,36 +129,46 @@ void BemioReader::read_frequencies() {
 
 Vector3 BemioReader::read_properties(std::size_t body, HydrodynamicCoefficients& c) const {
   const std::string name = body_name(body);
-  if (one(name + "/properties/dof") != 6.0) file_.fail(name + " has other than six modes: only rigid bodies are read");
+  if (file_.exists(name + "/properties/dof") && one(name + "/properties/dof") != 6.0)
+    file_.fail(name + " has other than six modes: only rigid bodies are read");
   const double volume = one(name + "/properties/disp_vol");
   c.volume.push_back(frame_.bodies[body].volume > 0.0 ? frame_.bodies[body].volume : volume);
   if (!(c.volume.back() > 0.0)) file_.fail(name + "/properties/disp_vol must be > 0");
   const std::string stiffness = name + "/hydro_coeffs/linear_restoring_stiffness";
-  const double C33 = shaped(stiffness, {6, 6}).value[14] / (scaled_ ? density_ * gravity_ : 1.0);
-  if (C33 < 0.0) file_.fail(stiffness + " is negative in heave");
-  c.waterplane.push_back(C33);
+  const Hdf5Array C = shaped(stiffness, {6, 6});
+  const double unit = scaled_ ? 1.0 : density_ * gravity_;
+  if (C.value[14] < 0.0) file_.fail(stiffness + " is negative in heave");
+  c.waterplane.push_back(C.value[14] * unit / (density_ * gravity_));
   const std::vector<double> cg = list(name + "/properties/cg");
   if (cg.size() != 3) file_.fail(name + "/properties/cg must be three numbers");
-  return {cg[0], cg[1], cg[2]};
+  const Vector3 about(cg[0], cg[1], cg[2]);
+  c.stiffness.push_back({Matrix6::Zero(), about - frame_.bodies[body].origin});
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = 0; j < 6; ++j)
+      c.stiffness.back().C(i, j) = unit * C.value[static_cast<std::size_t>(6 * i + j)];
+  return about;
 }
 
 void BemioReader::read_radiation(std::size_t body, HydrodynamicCoefficients& c) const {
   const std::string name = body_name(body) + "/hydro_coeffs/";
-  const std::size_t count = frequencies_.size();
-  const Hdf5Array A_inf = shaped(name + "added_mass/inf_freq", {6, modes_});
-  const Hdf5Array A = shaped(name + "added_mass/all", {6, modes_, count});
-  const Hdf5Array B = shaped(name + "radiation_damping/all", {6, modes_, count});
+  const std::size_t count = frequencies_.size(), modes = 6 * static_cast<std::size_t>(held_);
   const double unit = scaled_ ? 1.0 : density_;
+  const Hdf5Array A_inf = shaped(name + "added_mass/inf_freq", {6, modes});
   for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < modes_; ++j) {
-      const auto row = static_cast<Eigen::Index>(6 * body + i), column = static_cast<Eigen::Index>(j);
-      c.A_inf(row, column) = unit * A_inf.value[i * modes_ + j];
+    for (std::size_t j = 0; j < modes_; ++j)
+      c.A_inf(static_cast<Eigen::Index>(6 * body + i), static_cast<Eigen::Index>(j)) =
+          unit * A_inf.value[i * modes + column(j)];
+  if (c.frequency.empty()) return;
+  const Hdf5Array A = shaped(name + "added_mass/all", {6, modes, count});
+  const Hdf5Array B = shaped(name + "radiation_damping/all", {6, modes, count});
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < modes_; ++j)
       for (std::size_t f = 0; f < count; ++f) {
-        const std::size_t at = (i * modes_ + j) * count + ascending_[f];
-        c.frequency[f].A(row, column) = unit * A.value[at];
-        c.frequency[f].B(row, column) = unit * B.value[at] * (scaled_ ? 1.0 : c.frequency[f].frequency);
+        const auto at_row = static_cast<Eigen::Index>(6 * body + i), at_column = static_cast<Eigen::Index>(j);
+        const std::size_t at = (i * modes + column(j)) * count + ascending_[f];
+        c.frequency[f].A(at_row, at_column) = unit * A.value[at];
+        c.frequency[f].B(at_row, at_column) = unit * B.value[at] * (scaled_ ? 1.0 : c.frequency[f].frequency);
       }
-    }
 }
 
 void BemioReader::read_retardation(std::size_t body, HydrodynamicCoefficients& c) const {
@@ -156,10 +182,11 @@ void BemioReader::read_retardation(std::size_t body, HydrodynamicCoefficients& c
   if (body > 0 && std::abs(interval - c.retardation.interval) > kUniformStep * interval)
     file_.fail(name + "t differs from that of another body");
   c.retardation.interval = interval;
-  const Hdf5Array K = shaped(name + "K", {6, modes_, t.size()});
+  const std::size_t modes = 6 * static_cast<std::size_t>(held_);
+  const Hdf5Array K = shaped(name + "K", {6, modes, t.size()});
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j < modes_; ++j) {
-      const double* const from = &K.value[(i * modes_ + j) * t.size()];
+      const double* const from = &K.value[(i * modes + column(j)) * t.size()];
       RetardationKernel kernel{static_cast<int>(6 * body + i), static_cast<int>(j), {from, from + t.size()}};
       for (double& k : kernel.value) k *= scaled_ ? 1.0 : density_;
       if (std::any_of(kernel.value.begin(), kernel.value.end(), [](double k) { return k != 0.0; }))
@@ -167,11 +194,25 @@ void BemioReader::read_retardation(std::size_t body, HydrodynamicCoefficients& c
     }
 }
 
-void BemioReader::read_excitation(std::size_t body, HydrodynamicCoefficients& c) const {
+std::vector<Complex> BemioReader::excitation_of(std::size_t body) const {
   const std::string name = body_name(body) + "/hydro_coeffs/excitation/";
+  const std::vector<std::size_t> shape{6, headings_.size(), frequencies_.size()};
+  std::vector<Complex> X;
+  // The readers of some programs take magnitude and phase (rad), so that their files have no more.
+  if (!file_.exists(name + "re") && file_.exists(name + "mag")) {
+    const Hdf5Array magnitude = shaped(name + "mag", shape), phase = shaped(name + "phase", shape);
+    for (std::size_t n = 0; n < magnitude.value.size(); ++n)
+      X.push_back(magnitude.value[n] * std::polar(1.0, phase.value[n]));
+    return X;
+  }
+  const Hdf5Array re = shaped(name + "re", shape), im = shaped(name + "im", shape);
+  for (std::size_t n = 0; n < re.value.size(); ++n) X.emplace_back(re.value[n], im.value[n]);
+  return X;
+}
+
+void BemioReader::read_excitation(std::size_t body, HydrodynamicCoefficients& c) const {
   const std::size_t count = frequencies_.size();
-  const Hdf5Array re = shaped(name + "re", {6, headings_.size(), count});
-  const Hdf5Array im = shaped(name + "im", {6, headings_.size(), count});
+  const std::vector<Complex> X = excitation_of(body);
   const double unit = scaled_ ? 1.0 : density_ * gravity_;
   const std::size_t zero = count - c.excitation.frequencies.size();
   for (std::size_t i = 0; i < 6; ++i)
@@ -179,22 +220,12 @@ void BemioReader::read_excitation(std::size_t body, HydrodynamicCoefficients& c)
       for (std::size_t f = zero; f < count; ++f) {
         const std::size_t at = (i * headings_.size() + h) * count + ascending_[f];
         c.excitation.at(static_cast<int>(f - zero), static_cast<int>(h), static_cast<int>(6 * body + i)) =
-            unit * Complex(re.value[at], im.value[at]);
+            unit * X[at];
       }
 }
 
-HydrodynamicCoefficients BemioReader::read() {
-  require_frame(frame_, path_);
-  if (!file_.exists("/simulation_parameters")) file_.fail("is not a BEMIO file: there is no /simulation_parameters");
-  density_ = one("/simulation_parameters/rho");
-  gravity_ = one("/simulation_parameters/g");
-  scaled_ = one("/simulation_parameters/scaled") != 0.0;
-  if (!(density_ > 0.0) || !(gravity_ > 0.0)) file_.fail("rho and g in /simulation_parameters must be > 0");
-  std::size_t bodies = 0;
-  while (file_.exists(body_name(bodies))) ++bodies;
-  if (bodies != hulls_)
-    file_.fail("holds " + std::to_string(bodies) + " bodies, it is read for " + std::to_string(hulls_));
-  read_frequencies();
+/// An empty set with room for the numbers of the file.
+HydrodynamicCoefficients BemioReader::prepared() const {
   HydrodynamicCoefficients c;
   c.source = path_;
   c.description = "BEMIO file " + path_;
@@ -205,16 +236,32 @@ HydrodynamicCoefficients BemioReader::read() {
   c.A_inf = MatrixX::Zero(modes, modes);
   ExcitationTable& X = c.excitation;
   X.modes = static_cast<int>(modes_);
+  // Files may do without A and B where they have retardation functions.
+  const bool table = everywhere("radiation_damping/all") || !everywhere(kKernels);
   for (std::size_t f : ascending_) {
     const double w = frequencies_[f];
-    c.frequency.push_back({w, MatrixX::Zero(modes, modes), MatrixX::Zero(modes, modes)});
+    if (table) c.frequency.push_back({w, MatrixX::Zero(modes, modes), MatrixX::Zero(modes, modes)});
     if (w > 0.0) X.frequencies.push_back(w);
   }
   for (double b : headings_) X.headings.push_back(b * kDegree);
   X.value.resize(X.frequencies.size() * X.headings.size() * modes_);
-  bool kernels = true;
-  for (std::size_t n = 0; n < hulls_; ++n)
-    kernels = kernels && file_.exists(body_name(n) + "/hydro_coeffs/radiation_damping/impulse_response_fun/K");
+  return c;
+}
+
+HydrodynamicCoefficients BemioReader::read() {
+  require_frame(frame_, path_);
+  if (!file_.exists("/simulation_parameters")) file_.fail("is not a BEMIO file: there is no /simulation_parameters");
+  density_ = one("/simulation_parameters/rho");
+  gravity_ = one("/simulation_parameters/g");
+  // Files of some programs do without, and their numbers are not scaled.
+  scaled_ = file_.exists("/simulation_parameters/scaled") && one("/simulation_parameters/scaled") != 0.0;
+  if (!(density_ > 0.0) || !(gravity_ > 0.0)) file_.fail("rho and g in /simulation_parameters must be > 0");
+  std::vector<std::string> remarks;
+  bodies_ = chosen_bodies(held_, frame_, path_, remarks);
+  read_frequencies();
+  HydrodynamicCoefficients c = prepared();
+  c.remarks = remarks;
+  const bool kernels = everywhere(kKernels);
   std::vector<Vector3> cg;
   for (std::size_t n = 0; n < hulls_; ++n) {
     cg.push_back(read_properties(n, c));
@@ -222,12 +269,17 @@ HydrodynamicCoefficients BemioReader::read() {
     if (kernels) read_retardation(n, c);
     read_excitation(n, c);
   }
-  if (std::find(c.waterplane.begin(), c.waterplane.end(), 0.0) != c.waterplane.end()) c.waterplane.clear();
+  if (std::find(c.waterplane.begin(), c.waterplane.end(), 0.0) != c.waterplane.end()) {
+    c.waterplane.clear();  // a code that left the restoring out
+    c.stiffness.clear();
+  }
   const double h = depth();
-  require_deep_water(X, gravity_, h, frame_, path_);
+  cut_frequencies(c, frame_, path_);
+  require_deep_water(c.excitation, gravity_, h, frame_, path_);
   complete_retardation(c, frame_);
+  turn_heading(c, cg[0], frame_, h, path_);
   to_body_origins(c, cg, frame_, h);
-  complete_headings(X, frame_, path_);
+  complete_headings(c.excitation, frame_, path_);
   return c;
 }
 

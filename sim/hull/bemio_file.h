@@ -24,7 +24,8 @@
 
 namespace stillhook {
 
-/// Reads all bodies of a file, which must be as many as frame.bodies. Volumes come from the file where the frame gives
+/// Reads all bodies of a file, which must be as many as frame.bodies, or frame.chosen. `scaled` is 0, and T not compared,
+/// where they are missing; excitation may be given as mag and phase alone, A and B be missing beside K. Volumes come from the file where the frame gives
 /// none, the water planes from the restoring in heave, retardation functions from the file or else from B. Frequencies
 /// may stand in any order; excitation at w = 0 is left out. Throws SpecificationError(path) when it is no HDF5 file, is
 /// damaged, lacks a dataset, a dataset has another shape, bodies have other than six modes, numbers are not finite, w

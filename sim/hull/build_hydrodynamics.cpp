@@ -128,9 +128,15 @@ std::unique_ptr<Diffraction> build_diffraction(const std::vector<HydrodynamicsBo
       require_close(c.volume[i], incident.back().volume(), options.volume_tolerance, "a displaced volume of", "m3",
                     *bodies[i].afloat.body);
     }
-    if (c.excitation.empty() || !waves || waves->calm()) return nullptr;
-    const DiffractionTable& table = *table_for(set, incident, headings);
+    if (!waves || waves->calm()) return nullptr;
     const bool cut = method.beyond == PanelMethodSpec::Beyond::cut;
+    if (c.excitation.empty()) {
+      const std::string sentence = c.source + ": holds no excitation forces (WAMIT: .3 or .2), which waves need";
+      if (!cut) throw SpecificationError(entry_of(first), field_of(first), sentence);
+      warnings.push_back(sentence + "; they act without diffraction");
+      return nullptr;
+    }
+    const DiffractionTable& table = *table_for(set, incident, headings);
     auto diffraction = std::make_unique<Diffraction>(std::move(waves), table, headings,
                                                            cut ? 1.0 : options.negligible_energy, entry_of(first));
     if (diffraction->share_left_out() > 0.0) {

@@ -15,6 +15,7 @@
 
 #include "sim/hull/coefficient_file.h"
 #include "sim/hull/database.h"
+#include "sim/hull/file_stiffness.h"
 #include "sim/hull/linear_froude_krylov.h"
 #include "sim/hull/state_space_fit.h"
 
@@ -118,14 +119,27 @@ Set read_file(const BodySpec& body, const HullAfloat& hull, const SeaSpec& sea) 
   DatabaseOptions options;
   // WAMIT's files hold no volume: that of the hull as it floats, so that only BEMIO's can differ from it.
   const double volume = LinearFroudeKrylov(*hull.mesh, hull.waterline, sea.density, sea.gravity).volume();
-  const bool bemio = h.coefficient_file.ends_with(".h5");
+  const bool bemio = is_bemio(h.coefficient_file);
+  if (bemio && !h.database_xbody.isZero())
+    throw SpecificationError(h.coefficient_file, "",
+                             "BEMIO files say themselves what their moments are about: leave database_xbody_m out");
   options.frame.bodies = {{h.database_origin, bemio ? 0.0 : volume}};
+  options.frame.chosen = h.database_body;
+  options.frame.axisymmetric = h.axisymmetric;
+  options.frame.lowest = h.database_lowest;
+  if (h.database_highest > 0.0) options.frame.highest = h.database_highest;
   options.frame.length = std::max(size.high.x() - size.low.x(), size.high.y() - size.low.y());
   options.frame.port_starboard = h.port_starboard;
   options.wamit.ulen = h.database_length;
+  options.wamit.reference = {h.database_xbody};
   options.wamit.density = sea.density;
   options.wamit.gravity = sea.gravity;
   return std::make_shared<const HydrodynamicCoefficients>(read_database(h.coefficient_file, options));
+}
+
+std::string difference_from_hull(const HydrodynamicCoefficients& set, const HullAfloat& hull) {
+  if (set.hulls() != 1 || set.stiffness.empty()) return {};
+  return stiffness_difference(set, 0, *hull.mesh, hull.waterline, hull.body->cog);
 }
 
 /// K(t) of a causal, passive model that meets A(w) and B(w) with A_inf: the band ends where B has not died out, so the
@@ -295,6 +309,9 @@ Set coefficient_set(std::span<const HullAfloat> hulls, const SeaSpec& sea, const
     Set set = kind == Kind::panels
                   ? cached_panel_method(panel_hulls(hulls), panel_options(sea, method, panel), progress, nullptr)
                   : read_file(body, hulls.front(), sea);
+    warnings.insert(warnings.end(), set->remarks.begin(), set->remarks.end());
+    if (const std::string difference = difference_from_hull(*set, hulls.front()); !difference.empty())
+      warnings.push_back(difference);
     check(set, method, warnings);
     if (set->description.find("resonance of the gap") != std::string::npos)
       warnings.push_back(body.name + ": " + set->description);

@@ -54,6 +54,12 @@ struct ExcitationTable {
   const Complex& at(int f, int h, int mode) const { return value[(f * headings.size() + h) * modes + mode]; }
 };
 
+/// The hydrostatic stiffness of a hull as the file of a set has it: N/m, N, N m about a point, axes of H.
+struct FileStiffness {
+  Matrix6 C = Matrix6::Zero();
+  Vector3 about = Vector3::Zero();  // m, from Bo
+};
+
 /// A coefficient set with everything that must be known to use it.
 struct HydrodynamicCoefficients {
   std::string source;              // where it was read, or what computed it
@@ -64,6 +70,8 @@ struct HydrodynamicCoefficients {
   double waterline = 0.0;          // m, height of the calm water plane above Bo
   std::vector<double> volume;      // m3, displaced volume of each hull
   std::vector<double> waterplane;  // m2, area of each hull's water plane; empty where it is not known
+  std::vector<FileStiffness> stiffness;  // of each hull, for comparison with its mesh; empty where it is not known
+  std::vector<std::string> remarks;      // sentences on what was left out or made up in reading, for the user
   MatrixX A_inf;                   // modes x modes
   RetardationFunctions retardation;
   std::vector<FrequencyCoefficients> frequency;  // ascending; may be empty

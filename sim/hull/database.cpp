@@ -8,15 +8,30 @@
 
 namespace stillhook {
 
-HydrodynamicCoefficients read_database(const std::string& path, const DatabaseOptions& options) {
+namespace {
+
+/// In small letters.
+std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
-  const std::string base = path.substr(0, path.size() - ending.size());
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+}  // namespace
+
+bool is_bemio(const std::string& path) { return ending_of(path) == ".h5"; }
+
+bool is_wamit(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".1" || ending == ".2" || ending == ".3" || ending == ".hst";
+}
+
+HydrodynamicCoefficients read_database(const std::string& path, const DatabaseOptions& options) {
+  const std::string ending = ending_of(path);
   if (ending == ".csv") return read_coefficient_file(path);
-  if (ending == ".h5") return read_bemio(path, options.frame);
-  if (ending == ".1" || ending == ".2" || ending == ".3" || ending == ".hst")
-    return read_wamit(base, options.wamit, options.frame);
+  if (is_bemio(path)) return read_bemio(path, options.frame);
+  if (is_wamit(path)) return read_wamit(path.substr(0, path.size() - ending.size()), options.wamit, options.frame);
   throw SpecificationError(path, "",
                            "is no known coefficient file by its name; there are .csv (the project's own), .1 .3 .hst "
                            "(WAMIT) and .h5 (BEMIO)");

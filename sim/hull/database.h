@@ -14,6 +14,10 @@ struct DatabaseOptions {
   WamitUnits wamit;     // for WAMIT files only
 };
 
+/// What a file is by the end of its name, in small letters or capitals.
+bool is_bemio(const std::string& path);
+bool is_wamit(const std::string& path);
+
 /// .csv: the project's own; .1, .2, .3, .hst: the WAMIT files of that base name; .h5: BEMIO. Throws SpecificationError
 /// as the readers do, and for any other ending one that names these. Does not run the self-checks.
 HydrodynamicCoefficients read_database(const std::string& path, const DatabaseOptions& options = {});

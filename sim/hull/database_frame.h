@@ -29,8 +29,12 @@ struct DatabaseBody {
 
 struct DatabaseFrame {
   std::vector<DatabaseBody> bodies = {{}};  // in the order of the database
+  int chosen = 0;                           // from 1: that body alone of all in the database; 0: all of them
   double length = 0.0;                      // m, > 0: length scale of the hull, as in HydrodynamicCoefficients
   bool port_starboard = false;              // headings 0..180 deg are mirrored; one hull only
+  bool axisymmetric = false;                // one heading stands for all, see turn_heading; one hull only
+  double lowest = 0.0;                      // rad/s, lower frequencies are left out
+  double highest = std::numeric_limits<double>::infinity();  // rad/s, higher frequencies are left out
   bool accept_finite_depth = false;         // take a set computed where the longest wave feels the bottom
   RetardationOptions retardation;           // where the database has no retardation functions
 };
@@ -38,7 +42,8 @@ struct DatabaseFrame {
 /// Throws SpecificationError(source) unless there are hulls, all their origins at one height, and a length.
 void require_frame(const DatabaseFrame& frame, const std::string& source);
 
-/// Throws SpecificationError(source) when the lowest frequency of X is not in deep water (k h < pi), unless accepted.
+/// Throws SpecificationError(source) when the lowest frequency of X is not in deep water (k h < pi), unless accepted:
+/// with the frequency from which on the depth does not matter.
 void require_deep_water(const ExcitationTable& X, double gravity, double depth, const DatabaseFrame& frame,
                         const std::string& source);
 
@@ -53,9 +58,26 @@ void to_body_origins(HydrodynamicCoefficients& coefficients, const std::vector<V
 HydrodynamicCoefficients from_body_origins(const HydrodynamicCoefficients& coefficients,
                                            const std::vector<Vector3>& reference, const DatabaseFrame& frame);
 
+/// The bodies to read of `held` in the database, from 0: all, or frame.chosen. Throws SpecificationError(source) when they
+/// are not as many as frame.bodies; `remarks` hears of bodies that are left out.
+std::vector<int> chosen_bodies(int held, const DatabaseFrame& frame, const std::string& source,
+                               std::vector<std::string>& remarks);
+
+/// Leaves out A, B and X outside frame.lowest..highest, and retardation functions, which hold all of B. Throws
+/// SpecificationError(source) when fewer than two frequencies are left.
+void cut_frequencies(HydrodynamicCoefficients& coefficients, const DatabaseFrame& frame, const std::string& source);
+
+/// With frame.axisymmetric: the excitation of a body of revolution about the vertical through `reference`, from its one
+/// heading turned to as many, evenly around the circle, as the highest frequency needs: with the phase of the wave at
+/// `reference`, the force turns with the wave. In the frame of the database, before to_body_origins. Throws
+/// SpecificationError(source) when A, B or X are not those of such a body (3 % of the largest of the kind).
+void turn_heading(HydrodynamicCoefficients& coefficients, const Vector3& reference, const DatabaseFrame& frame,
+                  double depth, const std::string& source);
+
 /// Headings (rad, any, in any order) brought into [0, 2 pi), ascending, a heading that is given twice (0 and 360 deg)
-/// taken once; with frame.port_starboard those of 0..180 deg mirrored. Throws SpecificationError(source) unless they
-/// are evenly spaced around the circle then, by 90 deg or less; the exactly even values are put in their place.
+/// taken once; with frame.port_starboard those between 0 and 180 deg mirrored. Evenly spaced ones (90 deg or less) get
+/// their exactly even values. Others stay as they are and serve waves from these directions alone (diffraction.h).
+/// Throws SpecificationError(source) when the same heading comes with different forces, or the symmetry does not hold.
 void complete_headings(ExcitationTable& X, const DatabaseFrame& frame, const std::string& source);
 
 /// K from the table of B, for databases that have none. Throws SpecificationError(source).

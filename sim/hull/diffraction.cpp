@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
 
 namespace stillhook {
 namespace {
@@ -19,15 +18,23 @@ double circle_weight(double x, int n) {
   return n % 2 == 0 ? numerator * std::cos(0.5 * x) / s : numerator / s;
 }
 
+std::string listed_in_degrees(const std::vector<double>& headings) {
+  std::ostringstream text;
+  text.precision(4);
+  for (std::size_t h = 0; h < headings.size(); ++h)
+    text << (h == 0 ? "" : h + 1 == headings.size() ? " and " : ", ") << headings[h] * 360.0 / kTurn;
+  return text.str();
+}
+
 }  // namespace
 
 DiffractionTable::DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
                                    std::span<const double> headings, double length)
     : headings_(total.headings), length_(length), gravity_(froude_krylov[0].gravity()) {
   const int directions = static_cast<int>(headings_.size());
+  all_around_ = directions >= 4;
   for (int h = 0; h < directions; ++h)
-    if (std::abs(headings_[h] - headings_[0] - h * kTurn / directions) > 1e-6)
-      throw std::invalid_argument("the headings of an excitation table must be evenly spaced around the circle");
+    all_around_ = all_around_ && std::abs(headings_[h] - headings_[0] - h * kTurn / directions) <= 1e-6;
   frequencies_.push_back(0.0);
   value_.push_back(Eigen::MatrixXcd::Zero(directions, total.modes));
   frequencies_.insert(frequencies_.end(), total.frequencies.begin(), total.frequencies.end());
@@ -44,9 +51,18 @@ DiffractionTable::DiffractionTable(const ExcitationTable& total, std::span<const
     }
 }
 
+int DiffractionTable::closest(double heading) const {
+  const auto distance = [&](int h) { return std::abs(std::remainder(heading - headings_[h], kTurn)); };
+  int best = 0;
+  for (int h = 1; h < static_cast<int>(headings_.size()); ++h)
+    if (distance(h) < distance(best)) best = h;
+  return best;
+}
+
 bool DiffractionTable::resolves(double frequency, double heading) const {
   // A frequency or heading given exactly on an entry may miss it by a rounding error.
   if (frequency > highest_frequency() * (1.0 + 1e-9)) return false;
+  if (!all_around_) return std::abs(std::remainder(heading - headings_[closest(heading)], kTurn)) <= kSameDirection;
   const int n = static_cast<int>(headings_.size());
   const double u = (heading - headings_[0]) * n / kTurn;
   if (std::abs(u - std::round(u)) < 1e-6) return true;
@@ -54,6 +70,7 @@ bool DiffractionTable::resolves(double frequency, double heading) const {
 }
 
 Eigen::VectorXcd DiffractionTable::at_heading(int f, double heading) const {
+  if (!all_around_) return value_[f].row(closest(heading)).transpose();
   const int n = static_cast<int>(headings_.size());
   Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(value_[f].cols());
   for (int h = 0; h < n; ++h) sum += circle_weight(heading - headings_[h], n) * value_[f].row(h).transpose();
@@ -113,6 +130,11 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
     sentence << 100.0 * beyond / energy << " % of the sea's energy lies ";
     if (above)
       sentence << "above " << table.highest_frequency() << " rad/s, where the excitation of the coefficients ends";
+    else if (!table.all_around())
+      sentence << "in other directions than those of the coefficients, which hold for waves towards "
+               << listed_in_degrees(table.headings())
+               << " deg of the hull alone: run the panel code with headings evenly around the circle, or over 0..180 deg "
+                  "for a hull with port_starboard = true; a body of revolution needs one heading and axisymmetric = true";
     else
       sentence << "in short waves between the headings of the coefficients, which are too far apart for them";
     sentence << "; at most " << 100.0 * negligible_energy << " % may";

@@ -23,15 +23,20 @@ namespace stillhook {
 /// continued to w = 0, where the hull does not disturb the wave, X_D = 0, and X_D ~ w^2.
 ///
 /// With heading the force of a wave turns in phase like exp(i k (length/2) cos b), which n headings resolve while
-/// k length/2 <= n/2; shorter waves can be looked up at the table's own headings only.
+/// k length/2 <= n/2; shorter waves can be looked up at the table's own headings only. So can all waves when the
+/// headings do not go evenly round the circle by 90 deg or less: what is within kSameDirection of one takes it.
 class DiffractionTable {
  public:
-  /// `froude_krylov` and `headings` (rad) of each hull of the set, in order; `length`: of the longest hull, m. Throws
-  /// std::invalid_argument unless the headings are evenly spaced around the circle.
+  static constexpr double kSameDirection = 0.5 / 180.0 * 3.14159265358979323846;  // rad: 1 % of the force across
+
+  /// `froude_krylov` and `headings` (rad) of each hull of the set, in order; `length`: of the longest hull, m.
   DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
                    std::span<const double> headings, double length);
 
   double highest_frequency() const { return frequencies_.back(); }
+  /// The headings go round the circle, so that those between can be looked up.
+  bool all_around() const { return all_around_; }
+  const std::vector<double>& headings() const { return headings_; }  // rad
   /// False above the highest frequency and between headings that are too far apart for the wave length.
   bool resolves(double frequency, double heading) const;
   /// All modes; frequency in [0, highest_frequency()], heading in rad relative to the first hull.
@@ -39,11 +44,14 @@ class DiffractionTable {
 
  private:
   Eigen::VectorXcd at_heading(int f, double heading) const;
+  /// The entry that is closest in heading.
+  int closest(double heading) const;
 
   std::vector<double> frequencies_;      // rad/s, the first is 0
   std::vector<double> headings_;         // rad
   std::vector<Eigen::MatrixXcd> value_;  // [frequency] headings x modes
   double length_, gravity_;
+  bool all_around_ = true;
 };
 
 class Diffraction {

@@ -408,7 +408,8 @@ Mesh build_hull_mesh(const HullSpec& hull, std::string* mended) {
     return box_mesh(s, hull.centre, hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(area));
   }
   const Mesh mesh =
-      read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend}, mended);
+      read_mesh(hull.mesh_file,
+                {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend, hull.mesh_deck_height}, mended);
   const double panel = hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(properties_of(mesh).area);
   return refined_mesh(mesh, panel * std::numbers::sqrt2);
 }

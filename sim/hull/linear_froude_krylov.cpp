@@ -64,6 +64,27 @@ LinearFroudeKrylov::LinearFroudeKrylov(const Mesh& hull, double waterline, doubl
   if (!(volume_ > 0.0)) throw MeshError("the hull has no volume below its mean water plane");
 }
 
+WaterplaneIntegrals LinearFroudeKrylov::waterplane() const {
+  // The wetted surface and the water plane close: int f(x, y) n_z dS over both is zero. Degree 2, so the rule is exact.
+  WaterplaneIntegrals I;
+  I.volume = volume_;
+  for (const Triangle& t : wetted_) {
+    const double nz = 0.5 * (t.b - t.a).cross(t.c - t.a).z();
+    for (const QuadraturePoint& q : quadrature()) {
+      const Vector3 p = q.a * t.a + q.b * t.b + q.c * t.c;
+      const double dS = q.weight * nz;
+      I.area -= dS;
+      I.x -= p.x() * dS;
+      I.y -= p.y() * dS;
+      I.xx -= p.x() * p.x() * dS;
+      I.xy -= p.x() * p.y() * dS;
+      I.yy -= p.y() * p.y() * dS;
+      I.depth += 0.5 * p.z() * p.z() * dS;
+    }
+  }
+  return I;
+}
+
 Eigen::Matrix<Complex, 6, 1> LinearFroudeKrylov::excitation(double frequency, double heading) const {
   return excitations(frequency, {heading}).col(0);
 }

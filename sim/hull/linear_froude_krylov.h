@@ -13,6 +13,15 @@
 
 namespace stillhook {
 
+/// Integrals over the water plane that a hull cuts out, x and y from Bo, and of the volume below it.
+struct WaterplaneIntegrals {
+  double area = 0.0;                       // m2
+  double x = 0.0, y = 0.0;                 // m3, of x and y
+  double xx = 0.0, xy = 0.0, yy = 0.0;     // m4
+  double volume = 0.0;                     // m3
+  double depth = 0.0;                      // m4, of z from the water plane over the volume: <= 0
+};
+
 class LinearFroudeKrylov {
  public:
   /// The part of `hull` (B, m) below z_B = waterline (m). density kg/m3, gravity m/s2. Throws MeshError when nothing
@@ -28,6 +37,7 @@ class LinearFroudeKrylov {
   /// m3, enclosed by S and the water plane.
   double volume() const { return volume_; }
   double gravity() const { return gravity_; }  // m/s2
+  WaterplaneIntegrals waterplane() const;
 
  private:
   struct Triangle {

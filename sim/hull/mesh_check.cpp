@@ -1,41 +1,13 @@
 // Is a triangle mesh a hull? (check_mesh of mesh.h)
 #include <algorithm>
-#include <cstdint>
-#include <unordered_map>
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh_deck.h"
+#include "sim/hull/mesh_edges.h"
+#include "sim/hull/mesh_parts.h"
 
 namespace stillhook {
 
 namespace {
-
-struct Neighbours {
-  int triangle[2] = {-1, -1};
-  bool forward[2] = {false, false};  // runs from the smaller vertex number to the larger
-  int count = 0;
-};
-
-using EdgeMap = std::unordered_map<std::uint64_t, Neighbours>;
-
-std::uint64_t edge_key(int a, int b) {
-  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
-}
-
-EdgeMap edges_of(const Mesh& mesh) {
-  EdgeMap edges;
-  edges.reserve(mesh.triangles.size() * 3 / 2 + 1);
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    for (int e = 0; e < 3; ++e) {
-      const int a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
-      Neighbours& n = edges[edge_key(a, b)];
-      if (n.count < 2) {
-        n.triangle[n.count] = t;
-        n.forward[n.count] = a < b;
-      }
-      ++n.count;
-    }
-  return edges;
-}
 
 std::string count_of(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -61,7 +33,7 @@ void check_numbers(const Mesh& mesh, const std::string& what) {
   if (flat > 0) throw MeshError(what + ": " + count_of(flat, "triangle has", "triangles have") + " no area");
 }
 
-void check_closed(const EdgeMap& edges, const std::string& what) {
+void check_closed(const Mesh& mesh, const EdgeMap& edges, const std::string& what) {
   std::size_t open = 0, crowded = 0;
   for (const auto& [key, n] : edges) {
     open += n.count == 1;
@@ -72,7 +44,11 @@ void check_closed(const EdgeMap& edges, const std::string& what) {
                     " shared by more than two triangles");
   if (open > 0)
     throw MeshError(what + ": the mesh is open, " + count_of(open, "edge belongs", "edges belong") +
-                    " to one triangle only; a hull must be closed, deck included");
+                    " to one triangle only; a hull must be closed, deck included" +
+                    (open_at_top_only(mesh, edges)
+                         ? ". It is open at its top alone, as a wetted surface is (WAMIT's GDF): mesh_deck_height_m "
+                           "draws its sides up to a deck"
+                         : ""));
 }
 
 // Turns the triangles of each connected part the same way and compares the result with what was given.
@@ -109,7 +85,7 @@ class Orientation {
     for (std::size_t next = 0; next < part.size(); ++next) {
       const int t = part[next];
       for (int e = 0; e < 3; ++e) {
-        const Neighbours& n = edges_.at(edge_key(mesh_.triangles[t][e], mesh_.triangles[t][(e + 1) % 3]));
+        const EdgeTriangles& n = edges_.at(edge_key(mesh_.triangles[t][e], mesh_.triangles[t][(e + 1) % 3]));
         const int other = n.triangle[0] == t ? n.triangle[1] : n.triangle[0];
         const int wanted = turned_[t] ^ (n.forward[0] == n.forward[1]);
         if (turned_[other] < 0) {
@@ -141,28 +117,36 @@ class Orientation {
   std::vector<int> outward_;  // the value of turned_ that faces outwards in the triangle's part
 };
 
-/// Rims of holes: closed loops of edges that belong to one triangle only, run against that triangle's own direction.
-std::vector<std::vector<int>> rims_of(const Mesh& mesh, const EdgeMap& edges) {
-  std::unordered_map<int, int> next;
-  for (const auto& t : mesh.triangles)
-    for (int e = 0; e < 3; ++e) {
-      const int a = t[e], b = t[(e + 1) % 3];
-      if (edges.at(edge_key(a, b)).count == 1) next[b] = a;
-    }
-  std::vector<std::vector<int>> rims;
-  while (!next.empty()) {
-    std::vector<int> rim{next.begin()->first};
-    for (auto it = next.find(rim[0]); it != next.end(); it = next.find(rim.back())) {
-      const int to = it->second;
-      next.erase(it);
-      if (to == rim[0]) {
-        rims.push_back(rim);
-        break;
+/// The mesh without the parts that lie inside others.
+Mesh without_inner_parts(const Mesh& mesh, const NestedParts& nested) {
+  Mesh result;
+  std::vector<int> renumbered(mesh.vertices.size(), -1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (std::ranges::find(nested.inner, nested.part[t]) != nested.inner.end()) continue;
+    std::array<int, 3> corners = mesh.triangles[t];
+    for (int& v : corners) {
+      if (renumbered[v] < 0) {
+        renumbered[v] = static_cast<int>(result.vertices.size());
+        result.vertices.push_back(mesh.vertices[v]);
       }
-      rim.push_back(to);
+      v = renumbered[v];
     }
+    result.triangles.push_back(corners);
   }
-  return rims;
+  return result;
+}
+
+void check_parts(const Mesh& mesh, const std::string& what) {
+  const NestedParts nested = nested_parts(mesh);
+  if (nested.overlapping > 0)
+    throw MeshError(
+        what + ": " +
+        count_of(nested.overlapping, "pair of closed surfaces overlaps", "pairs of closed surfaces overlap") +
+        ", their common volume would count as buoyancy twice; unite the parts of the hull into one surface");
+  if (!nested.inner.empty())
+    throw MeshError(what + ": " + count_of(nested.inner.size(), "closed surface lies", "closed surfaces lie") +
+                    " inside another (a tank, or the inner side of plating) and would count as buoyancy twice; take it "
+                    "out of the file, or leave it out with mesh_mend = true");
 }
 
 }  // namespace
@@ -187,16 +171,23 @@ Mesh mended_mesh(const Mesh& mesh, std::string& done) {
     }
     result.vertices.push_back(middle);
     for (std::size_t i = 0; i < rim.size(); ++i)
-      result.triangles.push_back(
-          {rim[i], rim[(i + 1) % rim.size()], static_cast<int>(result.vertices.size()) - 1});
+      result.triangles.push_back({rim[i], rim[(i + 1) % rim.size()], static_cast<int>(result.vertices.size()) - 1});
   }
-  const EdgeMap edges = edges_of(result);
   std::vector<int> turn;
-  if (std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 2; }))
-    turn = Orientation(result, edges).to_turn();
+  std::size_t left_out = 0;
+  if (const EdgeMap edges = edges_of(result); is_closed(edges)) {
+    // First what lies inside goes: turned outwards it would count as buoyancy a second time.
+    const NestedParts nested = nested_parts(result);
+    left_out = nested.inner.size();
+    if (left_out > 0) result = without_inner_parts(result, nested);
+    turn = Orientation(result, left_out > 0 ? edges_of(result) : edges).to_turn();
+  }
   for (const int t : turn) std::swap(result.triangles[t][1], result.triangles[t][2]);
   done.clear();
   if (holes > 0) done = count_of(holes, "hole closed", "holes closed");
+  if (left_out > 0)
+    done += (done.empty() ? "" : ", ") +
+            count_of(left_out, "closed surface inside another left out", "closed surfaces inside others left out");
   if (!turn.empty())
     done += (done.empty() ? "" : ", ") + count_of(turn.size(), "triangle turned outwards", "triangles turned outwards");
   return result;
@@ -205,10 +196,11 @@ Mesh mended_mesh(const Mesh& mesh, std::string& done) {
 void check_mesh(const Mesh& mesh, const std::string& what) {
   check_numbers(mesh, what);
   const EdgeMap edges = edges_of(mesh);
-  check_closed(edges, what);
+  check_closed(mesh, edges, what);
   const long inward = Orientation(mesh, edges).inward_triangles();
   const long all = static_cast<long>(mesh.triangles.size());
   if (inward < 0) throw MeshError(what + ": the surface has only one side, no choice of normals is consistent");
+  check_parts(mesh, what);
   if (inward == all)
     throw MeshError(what + ": the mesh is inverted, all " + std::to_string(all) + " triangles face inwards");
   if (inward > 0)

@@ -7,13 +7,17 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string_view>
+
+#include "sim/hull/mesh_deck.h"
 
 namespace stillhook {
 
 namespace {
 
 constexpr std::uintmax_t kMostBytes = 256u << 20;
+constexpr double kLongest = 1000.0, kShortest = 0.5;  // m: twice the longest ship there is; a model in a basin
 constexpr double kFarthest = 1e5;  // m, a hull does not reach further from its origin
 
 [[noreturn]] void fail(const std::string& where, const std::string& sentence) {
@@ -277,6 +281,18 @@ Mesh read_gdf(const std::string& path, const std::string& text, double scale) {
   return mesh;
 }
 
+/// A hull in the wrong unit floats nowhere, and what fails then does not tell why.
+void check_size(double length, double scale, const std::string& path) {
+  if (length <= kLongest) return;
+  std::ostringstream sentence;
+  sentence << "the hull is " << length << " m long, more than the " << kLongest
+           << " m that any vessel has: in which unit is the file?";
+  for (const auto& [factor, unit] : {std::pair{1e-3, "millimetres"}, std::pair{1e-2, "centimetres"}})
+    if (length * factor >= kShortest && length * factor <= kLongest)
+      sentence << " With mesh_scale = " << scale * factor << " (" << unit << ") it is " << length * factor << " m long.";
+  fail(path, sentence.str());
+}
+
 }  // namespace
 
 Mesh read_mesh(const std::string& path, const MeshFileOptions& options, std::string* mended) {
@@ -289,19 +305,25 @@ Mesh read_mesh(const std::string& path, const MeshFileOptions& options, std::str
               : extension == ".obj" ? read_obj(path, bytes)
                                     : read_gdf(path, bytes, options.scale);
   if (mesh.triangles.empty()) fail(path, "the file holds no triangles");
+  const MeshProperties in_file = properties_of(mesh);
   const Matrix3 R = rotation_from(options.attitude);
-  for (Vector3& v : mesh.vertices) {
-    v = options.origin + options.scale * (R * v);
-    if (!(v.cwiseAbs().maxCoeff() < kFarthest))
-      fail(path, "a vertex lies more than 100 km from the origin of the body; check the scale");
-  }
+  for (Vector3& v : mesh.vertices) v = options.origin + options.scale * (R * v);
   const MeshProperties p = properties_of(mesh);
+  check_size((p.high - p.low).maxCoeff(), options.scale, path);
+  if (!(std::max(p.low.cwiseAbs().maxCoeff(), p.high.cwiseAbs().maxCoeff()) < kFarthest))
+    fail(path, "a vertex lies more than 100 km from the origin of the body; check mesh_origin_m and mesh_scale");
   mesh = welded_mesh(mesh, 1e-6 * (p.high - p.low).norm());
+  if (options.deck_height > 0.0) mesh = decked_mesh(mesh, options.deck_height, path);
   if (options.mend) {
     std::string done;
     mesh = mended_mesh(mesh, done);
     if (mended && !done.empty()) *mended = path + ": " + done;
   }
+  const double top = in_file.high.z(), size = (in_file.high - in_file.low).norm();
+  if (extension == ".gdf" && options.deck_height == 0.0 && std::abs(top) < 1e-4 * size && mended)
+    *mended += (mended->empty() ? path + ": " : "; ") +
+               "the mesh ends at z = 0, where such files have the still water: if that is a lid against irregular "
+               "frequencies and not the deck, mesh_deck_height_m draws the sides up to the deck";
   check_mesh(mesh, path);
   return mesh;
 }

@@ -6,7 +6,7 @@
 //        counter-clockwise seen from the water (WAMIT manual, "Geometric Data File"). Coordinates are in the length
 //        unit of GRAV, not divided by ULEN. The planes x = 0 (ISX) and y = 0 (ISY) of symmetry are applied. Most GDF
 //        files describe only the part of a hull below the still water and are open there: such a mesh is refused as
-//        open, because the waterline moves; close it with topsides and deck.
+//        open, because the waterline moves, unless deck_height closes it with topsides and deck.
 //
 // The type is taken from the extension. Vertices closer than a millionth of the mesh's size are merged.
 #pragma once
@@ -22,11 +22,13 @@ struct MeshFileOptions {
   Vector3 origin = Vector3::Zero();  // m, position in B of the file's origin
   RollPitchYaw attitude = {};        // rad, of the file's axes in B
   bool mend = false;                 // mended_mesh of mesh.h before the check
+  double deck_height = 0.0;          // m, > 0: decked_mesh of mesh_deck.h before that
 };
 
 /// The mesh of a file in the body frame B (m), merged and checked by check_mesh. Throws MeshError with the file's name
-/// and, where there is one, the line.
-/// With options.mend, `mended` (if given) is what was done, as a sentence, empty if nothing.
+/// and, where there is one, the line; also when it is longer than any vessel, which a file in millimetres is.
+/// `mended` (if given) is what was done with options.mend, and what is doubtful about the file, as a sentence; empty if
+/// nothing.
 Mesh read_mesh(const std::string& path, const MeshFileOptions& options = {}, std::string* mended = nullptr);
 
 }  // namespace stillhook

@@ -9,9 +9,9 @@
 //   amplitude. PER is a period in s, where 0 means infinite frequency and a negative number zero frequency (both
 //   without B); or, when the run was told so, a frequency in rad/s, where 0 means zero and a negative number infinite
 //   frequency. BETA: deg, direction towards, from +x counter-clockwise. Pha: deg, of exp(+i w t): a lead. Modes 7..12
-//   are those of the second body. Forces and moments about the origin of each body (XBODY), phases at the origin of the
-//   global frame, in whose z = 0 the calm water lies; the axes of the bodies are parallel to it. A first line of text
-//   is a heading.
+//   are those of the second body. Forces and moments about the origin of each body (XBODY), which need not be that of
+//   the case's body frame; phases at the origin of the global frame, in whose z = 0 the calm water lies; the axes of
+//   the bodies are parallel to it. A first line of text is a heading.
 //
 // The files name neither ULEN nor rho nor g; volumes are not in them, the area of the water plane is C_33.
 #pragma once
@@ -35,12 +35,12 @@ struct WamitUnits {
   std::vector<Vector3> reference;  // XBODY of each hull, m, global frame; empty: the hulls' origins
 };
 
-/// Reads <base>.1, <base>.3 (else <base>.2) and, where it exists, <base>.hst. frame.bodies must give the volumes.
+/// Reads <base>.1 and, where they exist, <base>.3 (else <base>.2) and <base>.hst. frame.bodies must give the volumes.
 /// Retardation functions are computed from B. Numbers as Fortran writes them (1.0D+03, 1.234-100) are understood; pairs
 /// that are not listed at any frequency are zero. Throws SpecificationError("<path>:<line>") with the rule broken:
 /// lines cut short, rows that come twice, a frequency that lacks a pair others have, no row of infinite frequency, Mod
-/// and Pha that contradict Re and Im, modes of more or fewer hulls than `frame` has, headings that do not go round.
-/// Does not run the self-checks.
+/// and Pha that contradict Re and Im (but for forces that are rounding noise beside the largest of the file), modes of
+/// more or fewer hulls than `frame` has. Does not run the self-checks.
 HydrodynamicCoefficients read_wamit(const std::string& base, const WamitUnits& units, const DatabaseFrame& frame);
 
 /// Writes <base>.1, <base>.3 where the set has an excitation, and <base>.hst where `stiffness` has the restoring

@@ -1,13 +1,44 @@
 #include "sim/hull/wamit_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "sim/specification.h"
 
 namespace stillhook {
+
+namespace {
+
+/// What the last numbers of rows look like: programs print a column with as many digits in every row, so that a number
+/// that is cut off is shorter.
+class LastWords {
+ public:
+  void note(std::size_t columns, const std::string& word) {
+    const std::size_t now = digits(word);
+    const auto [known, first] = lengths_.insert({columns, {now, now}});
+    known->second = {std::min(known->second.first, now), std::max(known->second.second, now)};
+    columns_ = columns;
+  }
+  bool looks_whole(std::size_t columns, const std::string& word) const {
+    const auto known = lengths_.find(columns);
+    if (columns != columns_ || known == lengths_.end()) return false;
+    const auto& [shortest, longest] = known->second;
+    return longest - shortest <= 1 && digits(word) >= shortest;  // an exponent of three digits may take one more
+  }
+
+ private:
+  static std::size_t digits(const std::string& word) {
+    return word.size() - (word[0] == '-' || word[0] == '+' ? 1 : 0);
+  }
+  std::size_t columns_ = 0;                                              // of the row before
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> lengths_;  // shortest and longest, by columns
+};
+
+}  // namespace
 
 bool fortran_number(const std::string& text, double& value) {
   std::string plain;
@@ -45,26 +76,47 @@ WamitText::WamitText(const std::string& path) : path_(path) {
   if (!in) throw SpecificationError(path, "", "cannot be opened");
   std::string text;
   int line = 0;
+  LastWords words;
   while (std::getline(in, text)) {
     ++line;
     if (text.find('\0') != std::string::npos) fail(line, "is not text");
-    if (in.eof()) fail(line, "ends in the middle of a line: is the file cut off?");
-    std::istringstream words(text);
-    WamitRow row{line, {}};
+    const std::size_t before = rows_.size();
+    const bool unended = in.eof();
     std::string word;
-    while (words >> word) {
-      double value = 0.0;
-      if (fortran_number(word, value)) {
-        row.column.push_back(value);
-      } else if (line == 1 && row.column.empty()) {
-        break;  // a heading
-      } else {
-        fail(line, "expected a number, got \"" + word + "\"");
-      }
+    try {
+      word = read_line(line, text);
+    } catch (const SpecificationError&) {
+      if (!unended || line == 1) throw;
     }
-    if (!row.column.empty()) rows_.push_back(std::move(row));
+    if (rows_.size() > before) {
+      const std::size_t columns = rows_.back().column.size();
+      if (!unended) words.note(columns, word);
+      if (!unended || words.looks_whole(columns, word)) continue;
+    } else if (!unended) {
+      continue;
+    }
+    if (text.find_first_not_of(" \t\r\x1a") != std::string::npos)
+      fail(line, "ends in the middle of a line: is the file cut off? If the row is whole, end it with a line break");
   }
   if (rows_.empty()) fail(std::max(line, 1), "holds no numbers");
+}
+
+std::string WamitText::read_line(int line, const std::string& text) {
+  std::istringstream words(text);
+  WamitRow row{line, {}};
+  std::string word;
+  while (words >> word) {
+    double value = 0.0;
+    if (fortran_number(word, value)) {
+      row.column.push_back(value);
+    } else if (line == 1 && row.column.empty()) {
+      break;  // a heading
+    } else {
+      fail(line, "expected a number, got \"" + word + "\"");
+    }
+  }
+  if (!row.column.empty()) rows_.push_back(std::move(row));
+  return word;
 }
 
 void WamitText::fail(int line, const std::string& sentence) const {

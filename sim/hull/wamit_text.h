@@ -14,7 +14,8 @@ struct WamitRow {
 class WamitText {
  public:
   /// Throws SpecificationError ("<path>:<line>") when the file cannot be opened, is not text, holds no rows, ends in
-  /// the middle of a line, or something that is no finite number.
+  /// the middle of a row, or something that is no finite number. A last row without its line end is whole when it has
+  /// as many columns as the row before and its last number as many digits as the others in that column have.
   explicit WamitText(const std::string& path);
 
   const std::string& path() const { return path_; }
@@ -27,6 +28,9 @@ class WamitText {
   [[noreturn]] void fail(int line, const std::string& sentence) const;
 
  private:
+  /// Puts the numbers of a line into a row. Returns the last word.
+  std::string read_line(int line, const std::string& text);
+
   std::string path_;
   std::vector<WamitRow> rows_;
 };

@@ -107,6 +107,7 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
   options.frame.length = own.length;
   options.wamit.density = own.density;
   options.wamit.gravity = own.gravity;
+  options.wamit.reference = {Vector3::Zero()};  // XBODY of the files, in the water plane over Bo
   for (const char* ending : {".h5", ".1"}) {
     const HydrodynamicCoefficients other = read_database(base + ending, options);
     INFO(ending);

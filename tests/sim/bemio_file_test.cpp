@@ -166,6 +166,52 @@ TEST_CASE("retardation functions of the file are taken as they are", "[bemio_fil
   CHECK(c.retardation.kernels[0].value == std::vector<double>{4000.0, 3000.0, 2000.0, 1000.0});
 }
 
+TEST_CASE("what other programs leave out of a BEMIO file is not needed", "[bemio_file]") {
+  const TemporaryFolder folder;
+  SmallFile small;
+  small.with_kernels();
+  small.write(folder / "whole.h5");
+  const std::string h = "/body1/hydro_coeffs/";
+  for (const char* name : {"/simulation_parameters/scaled", "/simulation_parameters/T", "/body1/properties/dof"})
+    small.numbers.erase(name);
+  // Magnitude and phase in place of real and imaginary part; no table of A and B beside the retardation functions.
+  Hdf5Array magnitude = small.numbers[h + "excitation/re"], phase = magnitude;
+  for (std::size_t n = 0; n < magnitude.value.size(); ++n) {
+    const Complex x(small.numbers[h + "excitation/re"].value[n], small.numbers[h + "excitation/im"].value[n]);
+    magnitude.value[n] = std::abs(x);
+    phase.value[n] = std::arg(x);
+  }
+  small.numbers[h + "excitation/mag"] = magnitude;
+  small.numbers[h + "excitation/phase"] = phase;
+  for (const char* name : {"excitation/re", "excitation/im", "added_mass/all", "radiation_damping/all"})
+    small.numbers.erase(h + name);
+  small.write(folder / "spare.h5");
+  const HydrodynamicCoefficients whole = read_bemio(folder / "whole.h5", frame());
+  const HydrodynamicCoefficients spare = read_bemio(folder / "spare.h5", frame());
+  CHECK(spare.frequency.empty());
+  CHECK(spare.A_inf == whole.A_inf);
+  CHECK(spare.retardation.kernels[0].value == whole.retardation.kernels[0].value);
+  REQUIRE(spare.excitation.value.size() == whole.excitation.value.size());
+  for (std::size_t n = 0; n < spare.excitation.value.size(); ++n)
+    CHECK(std::abs(spare.excitation.value[n] - whole.excitation.value[n]) < 1e-9);  // rounding, of 3e4 N/m
+}
+
+TEST_CASE("frequencies that feel the bottom can be left out of a BEMIO file", "[bemio_file]") {
+  const TemporaryFolder folder;
+  SmallFile small;
+  small.with_kernels();
+  small.texts.erase("/simulation_parameters/water_depth");
+  small.numbers["/simulation_parameters/water_depth"] = {{1, 1}, {35.0}};  // k h = 3.5 at 1 rad/s
+  small.write(folder / "small.h5");
+  DatabaseFrame f = frame();
+  f.lowest = 0.95;
+  const HydrodynamicCoefficients c = read_bemio(folder / "small.h5", f);
+  REQUIRE(c.frequency.size() == 2);
+  CHECK(c.frequency[0].frequency == 1.0);
+  CHECK(c.excitation.frequencies == std::vector<double>{1.0, 2.0});
+  CHECK(c.retardation.kernels.size() == 6);  // of the B that is left, not those of the file
+}
+
 TEST_CASE("broken BEMIO files are refused", "[bemio_file]") {
   struct Broken {
     std::function<void(SmallFile&)> change;
@@ -175,7 +221,6 @@ TEST_CASE("broken BEMIO files are refused", "[bemio_file]") {
   const auto without = [](const std::string& name) { return [name](SmallFile& s) { s.numbers.erase(name); }; };
   const std::vector<Broken> corpus = {
       {without(p + "rho"), p + "rho is missing"},
-      {without(p + "scaled"), p + "scaled is missing"},
       {without(p + "w"), p + "w is missing"},
       {without(h + "added_mass/inf_freq"), "added_mass/inf_freq is missing"},
       {without(h + "radiation_damping/all"), "radiation_damping/all is missing"},
@@ -187,7 +232,7 @@ TEST_CASE("broken BEMIO files are refused", "[bemio_file]") {
          s.texts.erase(p + "water_depth");
          s.numbers[p + "water_depth"] = {{1, 1}, {30.0}};
        },
-       "depth of 30 m"},
+       "depth of 30 m, which waves of 0.5 rad/s feel"},
       {[&](SmallFile& s) {
          s.numbers[h + "added_mass/all"].shape = {3, 6, 6};
        },
@@ -202,13 +247,12 @@ TEST_CASE("broken BEMIO files are refused", "[bemio_file]") {
       {[&](SmallFile& s) { s.at(p + "w", 0) = 0.5; }, "comes twice"},
       {[&](SmallFile& s) { s.at(p + "w", 0) = -1.0; }, "must be >= 0"},
       {[&](SmallFile& s) { s.at(p + "T", 0) = 1.0; }, "not 2 pi / w"},
-      {[&](SmallFile& s) { s.at(p + "wave_dir", 1) = 80.0; }, "evenly spaced around the circle"},
       {[&](SmallFile& s) { s.at("/body1/properties/dof", 0) = 8.0; }, "other than six modes"},
       {[&](SmallFile& s) { s.at("/body1/properties/disp_vol", 0) = 0.0; }, "disp_vol must be > 0"},
       {[&](SmallFile& s) {
          s.numbers["/body2/properties/dof"] = {{1, 1}, {6.0}};
        },
-       "holds 2 bodies"},
+       "holds 2 bodies, it is read for 1: say which with database_body = 1 to 2"},
       {[&](SmallFile& s) {
          s.with_kernels();
          s.at(h + "radiation_damping/impulse_response_fun/t", 2) = 0.5;
@@ -260,6 +304,24 @@ TEST_CASE("files that are no BEMIO files are refused, cut off anywhere or foreig
   other.write("/results/x", {{1}, {2.0}}, "");
   other.close();
   CHECK_THROWS_WITH(read_bemio(folder / "other.h5", frame()), Catch::Contains("is not a BEMIO file"));
+}
+
+TEST_CASE("one body of several in a BEMIO file is read when it is named", "[bemio_file]") {
+  const TemporaryFolder folder;
+  const HydrodynamicCoefficients c = pair_set();
+  write_bemio(folder / "set.h5", c, frame_of(c), bodies_of(c));
+  const int chosen = GENERATE(1, 2);
+  const auto at = static_cast<Eigen::Index>(6 * (chosen - 1));
+  DatabaseFrame one = frame_of(c);
+  one.bodies = {one.bodies[static_cast<std::size_t>(chosen - 1)]};
+  one.chosen = chosen;
+  const HydrodynamicCoefficients back = read_bemio(folder / "set.h5", one);
+  CHECK(difference(c.A_inf.block(at, at, 6, 6), back.A_inf) < 1e-11);  // rounding of moving to cg and back
+  CHECK(difference(c.frequency[3].B.block(at, at, 6, 6), back.frequency[2].B) < 1e-9);
+  CHECK(std::abs(back.excitation.at(1, 1, 4) - c.excitation.at(1, 1, static_cast<int>(at) + 4)) <
+        1e-9 * std::abs(c.excitation.at(1, 1, static_cast<int>(at) + 4)));
+  for (const RetardationKernel& kernel : back.retardation.kernels) CHECK((kernel.i < 6 && kernel.j < 6));
+  CHECK(back.remarks.size() == 1);
 }
 
 TEST_CASE("one hull and two travel through a BEMIO file and back", "[bemio_file]") {

@@ -175,6 +175,29 @@ TEST_CASE("headings between entries are used only for waves long enough", "[diff
                     Catch::Contains("between the headings"));
 }
 
+TEST_CASE("headings that do not go round serve waves from there alone", "[diffraction]") {
+  HydrodynamicCoefficients c = crane();
+  const LinearFroudeKrylov fk(crane_mesh(8.0), c.waterline, c.density, c.gravity);
+  const double psi = 0.2, head = c.excitation.headings[4];  // 180 deg
+  ExcitationTable one{c.excitation.frequencies, {head}, 6, {}};
+  for (int f = 0; f < static_cast<int>(one.frequencies.size()); ++f)
+    for (int i = 0; i < 6; ++i) one.value.push_back(c.excitation.at(f, 4, i));
+  const DiffractionTable table(one, {&fk, 1}, {&psi, 1}, c.length), all(c.excitation, {&fk, 1}, {&psi, 1}, c.length);
+  CHECK_FALSE(table.all_around());
+  CHECK(table.resolves(0.628, head));
+  CHECK(table.resolves(0.628, head - 2.0 * std::numbers::pi + 0.4 * kDegree));
+  CHECK_FALSE(table.resolves(0.628, head + 1.0 * kDegree));
+  CHECK_FALSE(table.resolves(0.628, 0.0));
+  // The same numbers as in the table that goes round, at an entry of both: rounding.
+  CHECK((table.at(0.6, head) - all.at(0.6, head)).norm() < 1e-12 * all.at(0.6, head).norm());
+  const auto beam = std::make_shared<const WaveField>(std::vector<WaveComponent>{component(1.0, 0.6, 1.5, 0.0)}, 10.0);
+  CHECK_THROWS_WITH(Diffraction(beam, table, {&psi, 1}, 0.01, "bodies.crane"),
+                    Catch::Contains("towards 180 deg of the hull alone") && Catch::Contains("axisymmetric = true"));
+  const auto along =
+      std::make_shared<const WaveField>(std::vector<WaveComponent>{component(1.0, 0.6, psi + head, 0.0)}, 10.0);
+  CHECK_NOTHROW(Diffraction(along, table, {&psi, 1}, 0.01, "bodies.crane"));
+}
+
 TEST_CASE("diffraction force at the hull's position", "[diffraction]") {
   const HydrodynamicCoefficients c = crane();
   const LinearFroudeKrylov fk(crane_mesh(5.0), c.waterline, c.density, c.gravity);

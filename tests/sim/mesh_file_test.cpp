@@ -118,6 +118,66 @@ TEST_CASE("STL files, ascii and binary, give back the box") {
   }
 }
 
+TEST_CASE("a hull longer than any vessel is refused with the scale that would do") {
+  const Folder folder;
+  Mesh millimetres = box();
+  for (Vector3& v : millimetres.vertices) v *= 1000.0;
+  const std::string path = folder.write("mm.stl", binary_stl(millimetres));
+  CHECK_THAT(complaint(path), Contains("the hull is 8000 m long") && Contains("With mesh_scale = 0.001 (millimetres) it is 8 m"));
+  CHECK(complaint(path, {0.001}) == "");
+  CHECK_THAT(complaint(path, {0.5}), Contains("is 4000 m long") && Contains("mesh_scale = 0.0005 (millimetres) it is 4 m"));
+}
+
+// The wetted surface of half a box 20 x 8 x 3 m, with its plane of symmetry y = 0 (ISY) and open at z = 0.
+const std::string kWetted =
+    "wetted surface\n1.0 9.80665\n0 1\n4\n"
+    "-10 0 -3  -10 4 -3  10 4 -3  10 0 -3\n"
+    "-10 4 -3  -10 4 0  10 4 0  10 4 -3\n"
+    "10 0 -3  10 4 -3  10 4 0  10 0 0\n"
+    "-10 0 -3  -10 0 0  -10 4 0  -10 4 -3\n";
+
+TEST_CASE("a wetted surface is closed by sides drawn up to a deck") {
+  const Folder folder;
+  const std::string path = folder.write("wetted.gdf", kWetted);
+  CHECK_THAT(complaint(path), Contains("open at its top alone") && Contains("mesh_deck_height_m"));
+  MeshFileOptions options;
+  options.deck_height = 2.5;
+  options.origin = Vector3(1.0, 0.0, 0.5);
+  const MeshProperties p = properties_of(read_mesh(path, options));
+  CHECK(p.volume == Approx(20.0 * 8.0 * 5.5).epsilon(1e-12));  // rounding
+  CHECK((p.centroid - Vector3(1.0, 0.0, 0.25)).norm() < 1e-12);
+  CHECK(p.high.z() == Approx(3.0));
+  // The lid of the water surface, which codes use against irregular frequencies, makes no deck at z = 0.
+  std::string lid = kWetted;
+  lid.replace(lid.find("\n4\n"), 3, "\n5\n");
+  lid += "-10 0 0  10 0 0  10 4 0  -10 4 0\n";
+  CHECK(properties_of(read_mesh(folder.write("lid.gdf", lid), options)).volume == Approx(20.0 * 8.0 * 5.5).epsilon(1e-12));
+  std::string doubt;
+  read_mesh(folder.write("lid.gdf", lid), {}, &doubt);
+  CHECK_THAT(doubt, Contains("ends at z = 0") && Contains("mesh_deck_height_m"));
+  // A whole hull needs none; a hole lower down is no rim.
+  CHECK_THAT(complaint(folder.write("box.gdf", kGdf), options), Contains("it needs no mesh_deck_height_m"));
+  std::string hole = kWetted;
+  hole.replace(hole.find("\n4\n"), 3, "\n3\n");
+  hole.resize(hole.find("-10 0 -3  -10 0 0"));
+  CHECK_THAT(complaint(folder.write("hole.gdf", hole), options), Contains("of its 8 open edges some lie below"));
+}
+
+TEST_CASE("a deck that is not convex has its own area") {
+  const Folder folder;
+  // An L of 12 x 10 m with a foot of 4 x 4 m taken away, 2 m deep, seen from above counter-clockwise.
+  const double corner[][2] = {{0, 0}, {12, 0}, {12, 4}, {4, 4}, {4, 10}, {0, 10}};
+  std::ostringstream obj;
+  for (const double z : {-2.0, 0.0})
+    for (const auto& c : corner) obj << "v " << c[0] << ' ' << c[1] << ' ' << z << '\n';
+  obj << "f 4 3 2 1\nf 6 5 4 1\n";  // bottom, facing down
+  for (int i = 1; i <= 6; ++i) obj << "f " << i << ' ' << i % 6 + 1 << ' ' << i % 6 + 7 << ' ' << i + 6 << '\n';
+  MeshFileOptions options;
+  options.deck_height = 1.0;
+  CHECK(properties_of(read_mesh(folder.write("l.obj", obj.str()), options)).volume ==
+        Approx((12.0 * 4.0 + 4.0 * 6.0) * 3.0).epsilon(1e-12));
+}
+
 TEST_CASE("OBJ polygons, negative indices and GDF symmetry give closed hulls") {
   const Folder folder;
   // The last face has three of the four corners of the side x = 0; the fourth makes it a quadrilateral.
@@ -182,7 +242,7 @@ TEST_CASE("broken mesh files get a sentence") {
   CHECK_THAT(complaint(folder.write("v.obj", with(kObj, "v 4 0 0", "v 4 0"))),
              Contains("v.obj:5: three coordinates are needed, found 2"));
   CHECK_THAT(complaint(folder.write("k.obj", "curv 1 2\n")), Contains("\"curv\" is not a word of an OBJ file"));
-  CHECK_THAT(complaint(folder.write("h.obj", with(kObj, "v 4 0 0", "v 4e99 0 0"))), Contains("more than 100 km"));
+  CHECK_THAT(complaint(folder.write("h.obj", with(kObj, "v 4 0 0", "v 4e99 0 0"))), Contains("the hull is 4e+99 m long"));
 
   // GDF
   CHECK_THAT(complaint(folder.write("o.gdf", with(kGdf, "\n4\n", "\n3\n"))),

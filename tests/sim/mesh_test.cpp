@@ -173,6 +173,48 @@ TEST_CASE("a mesh that is no hull is refused with the fault and its count") {
   CHECK_THAT(complaint(plane), Contains("only one side"));
 }
 
+// Two triangles a face and no other corners, so that no vertex of one box need lie in another.
+Mesh plain_box(const Vector3& size, const Vector3& centre) {
+  Mesh m;
+  for (int i = 0; i < 8; ++i)
+    m.vertices.push_back(centre + 0.5 * Vector3(i & 1 ? size.x() : -size.x(), i & 2 ? size.y() : -size.y(),
+                                                i & 4 ? size.z() : -size.z()));
+  m.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return m;
+}
+
+TEST_CASE("closed surfaces inside others or overlapping are refused", "[mesh]") {
+  const Mesh hull = plain_box({20.0, 8.0, 6.0}, {0.0, 0.0, 0.0});
+  CHECK_THAT(complaint(joined(hull, plain_box({4.0, 3.0, 2.0}, {5.0, 0.0, 0.0}))),
+             Contains("1 closed surface lies inside another") && Contains("mesh_mend = true"));
+  // Plating 20 mm thick: whichever way the inner side faces.
+  Mesh inside = plain_box({19.96, 7.96, 5.96}, {0.0, 0.0, 0.0});
+  CHECK_THAT(complaint(joined(hull, inside)), Contains("1 closed surface lies inside another"));
+  for (std::size_t t = 0; t < inside.triangles.size(); ++t) turn(inside, t);
+  CHECK_THAT(complaint(joined(hull, inside)), Contains("1 closed surface lies inside another"));
+  CHECK_THAT(complaint(joined(joined(hull, inside), plain_box({4.0, 3.0, 2.0}, {5.0, 0.0, 0.0}))),
+             Contains("2 closed surfaces lie inside"));
+  // A deckhouse pushed into the deck, and beams that cross, of which none has a corner inside the other.
+  CHECK_THAT(complaint(joined(hull, plain_box({4.0, 4.0, 4.0}, {-6.0, 0.0, 4.0}))),
+             Contains("1 pair of closed surfaces overlaps") && Contains("unite"));
+  const Mesh cross = joined(plain_box({20.0, 2.0, 2.0}, {0.0, 0.0, 0.0}), plain_box({3.0, 14.0, 1.0}, {0.3, 0.1, 0.2}));
+  CHECK_THAT(complaint(cross), Contains("1 pair of closed surfaces overlaps"));
+  CHECK_THAT(complaint(joined(hull, plain_box({20.0, 8.0, 6.0}, {0.1, 0.0, 0.0}))), Contains("overlaps"));
+}
+
+TEST_CASE("closed surfaces side by side, around or on each other are one hull", "[mesh]") {
+  const Mesh hull = plain_box({20.0, 8.0, 6.0}, {0.0, 0.0, 0.0});
+  // A catamaran; one in the box around the other, as a boat in a dock is; touching by a part of a face, an edge, a corner.
+  CHECK(complaint(joined(hull, plain_box({20.0, 8.0, 6.0}, {0.0, 12.0, 0.0}))) == "");
+  Mesh dock = joined(plain_box({30.0, 20.0, 2.0}, {0.0, 0.0, -8.0}), plain_box({30.0, 2.0, 12.0}, {0.0, 12.0, -3.0}));
+  CHECK(complaint(joined(dock, hull)) == "");
+  CHECK(complaint(joined(hull, plain_box({4.0, 4.0, 3.0}, {-6.0, 0.0, 4.5}))) == "");
+  CHECK(complaint(joined(hull, plain_box({20.0, 4.0, 4.0}, {20.0, 6.0, 5.0}))) == "");
+  // A step of 1e-6 of the size into each other, as coordinates of single precision have it.
+  CHECK(complaint(joined(hull, plain_box({4.0, 4.0, 3.0}, {-6.0, 0.0, 4.49998}))) == "");
+}
+
 TEST_CASE("a box that cannot be divided is refused") {
   CHECK_THROWS_AS(box_mesh({0.0, 1.0, 1.0}, Vector3::Zero(), 1.0), MeshError);
   CHECK_THROWS_AS(box_mesh({std::nan(""), 1.0, 1.0}, Vector3::Zero(), 1.0), MeshError);
@@ -185,6 +227,21 @@ TEST_CASE("a box that cannot be divided is refused") {
 }  // namespace stillhook
 
 namespace stillhook {
+
+TEST_CASE("mending leaves out what lies inside, and never turns it outwards", "[mesh]") {
+  const Mesh hull = box_mesh({20.0, 8.0, 6.0}, {0.0, 0.0, 0.0}, 2.0);
+  Mesh both = hull;
+  const Mesh inside = box_mesh({19.9, 7.9, 5.9}, {0.0, 0.0, 0.0}, 2.0);
+  const int n = static_cast<int>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), inside.vertices.begin(), inside.vertices.end());
+  for (const auto& t : inside.triangles) both.triangles.push_back({t[1] + n, t[0] + n, t[2] + n});  // into the room
+  std::string done;
+  const Mesh mended = mended_mesh(both, done);
+  CHECK(done == "1 closed surface inside another left out");
+  CHECK_NOTHROW(check_mesh(mended, "box"));
+  CHECK(mended.vertices.size() == hull.vertices.size());
+  CHECK(properties_of(mended).volume == Approx(20.0 * 8.0 * 6.0).epsilon(1e-12));  // of the outer side: rounding
+}
 
 TEST_CASE("a mesh with small faults is mended when that is asked for", "[mesh]") {
   const Mesh good = box_mesh(Vector3(20.0, 10.0, 6.0), Vector3(0.0, 0.0, 0.0), 1.0);
