@@ -21,6 +21,8 @@ CHAPTERS = [
      [("Equations of motion", "sim/multibody/system.h"), ("Joints", "sim/multibody/joint.h"),
       ("Sprung and driven joints", "sim/multibody/joint_drive.h"), ("What a force element offers", "sim/multibody/force_element.h"),
       ("Stepping in time", "sim/multibody/hht.h"), ("Static equilibrium", "sim/multibody/equilibrium.h"),
+      ("Stability of an equilibrium", "sim/multibody/stability.h"), ("Dynamic relaxation", "sim/multibody/relaxation.h"),
+      ("Moves in statics", "sim/multibody/drive_path.h"),
       ("Natural modes", "sim/modes.h"), ("Response amplitude operators", "sim/response.h")]),
     ("Seas", "Linear deep-water waves.",
      [("Spectra and components", "sim/sea/spectrum.h"), ("Elevation, pressure, velocity", "sim/sea/wave_field.h")]),
@@ -60,6 +62,7 @@ CHAPTERS = [
 
 # What the short citations stand for. The key is how the text cites: names up to the year.
 REFERENCES = {
+    "Allgower & Georg 1990": "E. L. Allgower, K. Georg (1990): Numerical Continuation Methods: An Introduction. Springer.",
     "Bock 1983": "H. G. Bock (1983): Recent advances in parameter identification techniques for O.D.E. In: Numerical Treatment of Inverse Problems in Differential and Integral Equations, Birkhäuser, 95-121.",
     "Bruls & Cardona 2010": "O. Brüls, A. Cardona (2010): On the use of Lie group time integrators in multibody dynamics. Journal of Computational and Nonlinear Dynamics 5, 031002.",
     "Bruls & Eberhard 2008": "O. Brüls, P. Eberhard (2008): Sensitivity analysis for dynamic mechanical systems with finite rotations. International Journal for Numerical Methods in Engineering 74, 1897-1927.",
@@ -69,6 +72,7 @@ REFERENCES = {
     "DNV-RP-C205": "DNV-RP-C205: Environmental conditions and environmental loads.",
     "Faltinsen 1990": "O. M. Faltinsen (1990): Sea Loads on Ships and Offshore Structures. Cambridge University Press.",
     "Fritsch and Carlson 1980": "F. N. Fritsch, R. E. Carlson (1980): Monotone piecewise cubic interpolation. SIAM Journal on Numerical Analysis 17, 238-246.",
+    "Day 1965": "A. S. Day (1965): An introduction to dynamic relaxation. The Engineer 219, 218-221.",
     "Deschrijver 2008": "D. Deschrijver, M. Mrozowski, T. Dhaene, D. De Zutter (2008): Macromodeling of multiport systems using a fast implementation of the vector fitting method. IEEE Microwave and Wireless Components Letters 18, 383-385.",
     "Gustavsen 2006": "B. Gustavsen (2006): Improving the pole relocating properties of vector fitting. IEEE Transactions on Power Delivery 21, 1587-1592.",
     "Gustavsen & Semlyen 1999": "B. Gustavsen, A. Semlyen (1999): Rational approximation of frequency domain responses by vector fitting. IEEE Transactions on Power Delivery 14, 1052-1061.",

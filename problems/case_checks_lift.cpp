@@ -94,9 +94,6 @@ class LiftCheck {
     else if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-4))  // input rounded to a few digits
       report(entry, key, "no body has a moment larger than the other two together, got " + principal);
     check_hull(body, entry);
-    if (spec_.solver.static_start)
-      for (const char* velocity : {"velocity_m_per_s", "angular_velocity_deg_per_s"})
-        if (written(entry, velocity)) report(entry, velocity, "has a meaning only with solver.static_start = false");
   }
 
   void check_coupling(const BodySpec& body, const std::string& entry) {

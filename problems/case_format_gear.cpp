@@ -79,7 +79,9 @@ const Table& wire_table() {
     t.number("unstretched_length_m", &S::unstretched_length, unit::m, positive(), "Length without load at the start.")
         .one_of("length", true);
     t.number("slack_m", &S::slack, unit::m, any_value(),
-             "Unstretched length less the distance of the ends at the start; negative: pre-tensioned.")
+             "Unstretched length less the distance of the ends at the start; negative: pre-tensioned. Where something "
+             "would fall without the wire, the distance is that of the given pose; else that of the pose in which "
+             "everything else is in balance.")
         .one_of("length", true);
     t.text("hold_joint", &S::hold_joint,
            "Length such that this joint keeps its initial coordinate in the initial static equilibrium.")

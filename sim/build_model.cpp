@@ -10,8 +10,10 @@
 #include "sim/lifting/wire.h"
 #include "sim/model.h"
 #include "sim/multibody/assembly.h"
-#include "sim/multibody/equilibrium.h"
 #include "sim/multibody/joint_drive.h"
+#include "sim/multibody/relaxation.h"
+#include "sim/start_pose.h"
+#include "sim/static_goals.h"
 
 namespace stillhook {
 namespace {
@@ -22,7 +24,7 @@ constexpr double kAngleHeld = 1e-10;   // rad
 constexpr double kLengthProbe = 1e-3;  // m
 constexpr int kHoldRounds = 20;
 const HydroProgress kSilent;
-constexpr double kLoose = 2.0;  // length over distance of a wire that is out of the way
+constexpr double kOutOfTheWay = 5.0;  // m that a wire is too long by to take part in the search for the start
 
 }  // namespace
 
@@ -47,11 +49,13 @@ class ModelBuilder {
     choose_lengths();
     add_elements();
     if (spec().solver.static_start) {
+      const SystemState given = state();
       if (other_)
         begin_at_other();
       else
         find_equilibrium();
       refuse_slack_supports();
+      model_.warnings_ = start_pose_notes(model_, given, state());
     }
     model_.laid_out_ = state();
     add_hydrodynamics();
@@ -116,6 +120,8 @@ class ModelBuilder {
                                  "leaves no length: the ends are " + std::to_string(distance) + " m apart");
       model_.initial_lengths_.push_back(length);
     }
+    given_lengths_ = model_.initial_lengths_;
+    given_ = state();
   }
 
   void rebuild_wires() {
@@ -164,8 +170,9 @@ class ModelBuilder {
     for (std::size_t i = 0; i < spec().wires.size() && taken_over_; ++i) {
       const WireSpec& w = spec().wires[i];
       if (!w.hold_joint.empty()) continue;  // the joint stands where the other's does
-      const double length = by_slack(i) ? build_.end_distance(w) + w.slack : lengths[i];
-      taken_over_ = length == model_.initial_lengths_[i] && !(by_slack(i) && w.slack < 0.0);
+      const bool by_pose = by_slack(i) && lengths[i] != model_.initial_lengths_[i];
+      const double length = by_pose ? build_.end_distance(w) + w.slack : lengths[i];
+      taken_over_ = length == model_.initial_lengths_[i] && !(by_pose && w.slack < 0.0);
     }
     taken_over_ = taken_over_ && same_statics(system(), other_->system(), there);
     if (taken_over_) return;
@@ -175,23 +182,24 @@ class ModelBuilder {
     find_equilibrium();
   }
 
-  void settle() {
+  EquilibriumReport try_to_settle() {
     state().t = kCalm;
+    const SystemState before = state();
     EquilibriumReport report;
-    if (other_) {
-      const SystemState before = state();
-      report = solve_equilibrium(system(), state(), true);
-      if (!report.converged) state() = before;
+    if (other_) report = settle_stably(system(), state(), true);
+    if (!report.converged) {
+      state() = before;
+      report = settle_stably(system(), state());
     }
-    if (!report.converged) report = solve_equilibrium(system(), state());
     state().t = 0.0;
+    return report;
+  }
+
+  void settle() {
+    const EquilibriumReport report = try_to_settle();
     if (report.converged) return;
     refuse_what_cannot_float();
-    throw SpecificationError("bodies." + report.worst_body, "",
-                             "no static equilibrium found from the given pose: out of balance by " +
-                                 std::to_string(report.residual) + " of the largest weight after " +
-                                 std::to_string(report.iterations) +
-                                 " iterations; check that everything floats, hangs or stands");
+    refuse_without_equilibrium(report, "bodies." + report.worst_body);
   }
 
   // The usual reason for having no equilibrium deserves its own sentence: more weight than the hulls can carry.
@@ -212,22 +220,23 @@ class ModelBuilder {
   }
 
   // Newton's method on the lengths of the wires that hold a joint at its initial coordinate, with the wires of given
-  // slack hanging loose; those get their lengths from the pose that comes out. At zero tension they leave it alone.
+  // slack out of the way; those get their lengths from the pose that comes out, at which they leave it alone. What falls
+  // without them hangs on them: their lengths are those of the given pose, and only the others keep out of the way.
   void find_equilibrium() {
     std::vector<std::size_t> holding;
     std::vector<const Joint*> held;
     for (std::size_t i = 0; i < spec().wires.size(); ++i) {
-      if (by_slack(i)) model_.initial_lengths_[i] *= kLoose;
       if (spec().wires[i].hold_joint.empty()) continue;
       holding.push_back(i);
       held.push_back(&joint_named(spec().wires[i]));
     }
-    rebuild_wires();
-    settle();
+    std::vector<std::size_t> loose;
+    for (std::size_t i = 0; i < spec().wires.size(); ++i)
+      if (by_slack(i) && !(other_ && other_->initial_lengths()[i] == given_lengths_[i])) loose.push_back(i);
+    settle_without(loose);
     hold_joints(holding, held);
     bool taut = false;
-    for (std::size_t i = 0; i < spec().wires.size(); ++i) {
-      if (!by_slack(i)) continue;
+    for (const std::size_t i : loose) {
       const WireSpec& w = spec().wires[i];
       model_.initial_lengths_[i] = build_.end_distance(w) + w.slack;
       taut = taut || w.slack < 0.0;
@@ -236,6 +245,27 @@ class ModelBuilder {
     if (!taut) return;
     settle();
     hold_joints(holding, held);
+  }
+
+  // Settles with the `loose` wires out of the way, and takes from among them those that turn out to hold something.
+  void settle_without(std::vector<std::size_t>& loose) {
+    SystemWorkspace work = system().make_workspace();
+    if (state().element_state.empty()) system().start_elements(state(), work);
+    const SystemState begin = state();
+    for (;;) {
+      for (std::size_t i = 0; i < spec().wires.size(); ++i)
+        if (by_slack(i)) model_.initial_lengths_[i] = given_lengths_[i];
+      for (const std::size_t i : loose) model_.initial_lengths_[i] += kOutOfTheWay;
+      rebuild_wires();
+      std::vector<std::size_t> hold;
+      if (loose.empty())
+        settle();
+      else
+        hold = try_to_settle().converged ? wires_that_hold(spec(), system(), loose, given_, state()) : loose;
+      if (hold.empty()) return;
+      std::erase_if(loose, [&](std::size_t i) { return std::find(hold.begin(), hold.end(), i) != hold.end(); });
+      state() = begin;
+    }
   }
 
   bool by_slack(std::size_t i) const {
@@ -284,8 +314,8 @@ class ModelBuilder {
   void refuse_slack_supports() {
     for (std::size_t i = 0; i < spec().wires.size(); ++i) {
       const WireSpec& w = spec().wires[i];
-      const bool supports =
-          w.role == WireSpec::Role::luffing || w.role == WireSpec::Role::stay || w.role == WireSpec::Role::sling;
+      // A sling may be: of four on a stiff load one often is, and over a load that stands all are.
+      const bool supports = w.role == WireSpec::Role::luffing || w.role == WireSpec::Role::stay;
       const auto& element = static_cast<const Wire&>(*system().elements[first_wire_ + i]);
       if (supports && element.tension(state().instant()) <= 0.0)
         throw SpecificationError("wires." + w.name, "",
@@ -428,12 +458,23 @@ class ModelBuilder {
         same_statics(system(), other_->system(), other_->initial_state())) {
       state() = other_->initial_state();
       system().settle_elements(state(), work);
+      set_velocities();
     } else if (spec().solver.static_start) {
       settle();
+      set_velocities();
     } else {
       state().acceleration = VectorX::Zero(system().coordinates());
       state().lambda = VectorX::Zero(system().constraints());
       system().start_elements(state(), work);
+    }
+  }
+
+  // A run may start from its equilibrium with the velocities of the case.
+  void set_velocities() {
+    for (std::size_t i = 0; i < spec().bodies.size(); ++i) {
+      BodyKinematics& k = state().body[i];
+      k.w_B = spec().bodies[i].angular_velocity;
+      k.v_WC = spec().bodies[i].velocity + k.R_WB * k.w_B.cross(spec().bodies[i].cog);
     }
   }
 
@@ -442,6 +483,8 @@ class ModelBuilder {
   bool taken_over_ = false;  // the other's equilibrium, so far
   Model model_;
   ElementBuilder build_{model_};
+  std::vector<double> given_lengths_;  // of the wires, as the given pose has them
+  SystemState given_;                  // with the joints closed
   std::size_t first_wire_ = 0;
 };
 

@@ -95,8 +95,9 @@ std::vector<double> travels_between(const Model& model, const PhaseSpec& spec, c
 // The end of the phase that begins in `state`.
 SystemState end_of_phase(const Model& model, const PhaseSpec& spec, SystemState state) {
   if (spec.moves.empty()) return state;
-  const std::vector<StaticGoal> goals = move_drives(model, spec, state);
-  solve_static(model, state, goals, entry_of(spec));
+  SystemState moved = state;
+  const std::vector<StaticGoal> goals = move_drives(model, spec, moved);
+  move_static(model, state, moved.drive, goals, entry_of(spec));
   return state;
 }
 
@@ -341,14 +342,15 @@ std::vector<StaticPose> solve_poses(const Model& model) {
   for (const PoseSpec& spec : model.specification().poses) {
     SystemState state = model.initial_state();
     std::vector<StaticGoal> goals;
-    for (const auto& setting : spec.drives) state.drive[model.drive_index(setting.drive)].position = setting.position;
+    std::vector<DriveState> to = state.drive;
+    for (const auto& setting : spec.drives) to[model.drive_index(setting.drive)].position = setting.position;
     for (const auto& hold : spec.holds) {
       CoordinateSpec coordinate;
       coordinate.joint = hold.joint;
       goals.push_back({model.drive_index(hold.drive), coordinate, hold.coordinate});
     }
     for (const auto& goal : spec.goals) goals.push_back({model.drive_index(goal.drive), goal.coordinate, goal.value});
-    solve_static(model, state, goals, "poses." + spec.name);
+    move_static(model, state, to, goals, "poses." + spec.name);
     poses.push_back(static_pose(model, state, spec.name));
   }
   return poses;

@@ -6,7 +6,6 @@
 namespace stillhook {
 namespace {
 
-constexpr int kMaxNewtonSteps = 600;
 constexpr double kForceTolerance = 1e-9;  // out-of-balance force over the largest weight
 // Then it is polished while each iteration takes away this factor, down to rounding: derivatives of an equilibrium are
 // differences of two of them.
@@ -15,24 +14,6 @@ constexpr double kSmallestShift = 1e-6;  // 1/s2, against (0.09 rad/s)^2 = 8e-3 
 constexpr double kLargestShift = 20.0;   // 1/s2, above the frequencies of a lift as a whole
 constexpr double kLargestMove = 3.0;     // m a step
 constexpr double kLargestTurn = 0.1;     // rad a step
-
-void move(SystemState& state, const VectorX& xi) {
-  for (std::size_t i = 0; i < state.body.size(); ++i) {
-    state.body[i].p_WC += xi.segment<3>(6 * i);
-    state.body[i].R_WB = orthonormalised(state.body[i].R_WB * exp_rotation(xi.segment<3>(6 * i + 3)));
-  }
-}
-
-// Scales a step back to the largest allowed one; returns the factor.
-double limit(VectorX& xi) {
-  double factor = 1.0;
-  for (int i = 0; i < xi.size(); i += 6) {
-    factor = std::min(factor, kLargestMove / std::max(kLargestMove, xi.segment<3>(i).norm()));
-    factor = std::min(factor, kLargestTurn / std::max(kLargestTurn, xi.segment<3>(i + 3).norm()));
-  }
-  xi *= factor;
-  return factor;
-}
 
 // What the element exerts at rest.
 const VectorX& static_force(const MultibodySystem& system, int element, SystemState& state, SystemWorkspace& work) {
@@ -43,6 +24,41 @@ const VectorX& static_force(const MultibodySystem& system, int element, SystemSt
 }
 
 }  // namespace
+
+void move_bodies(SystemState& state, const VectorX& xi) {
+  for (std::size_t i = 0; i < state.body.size(); ++i) {
+    state.body[i].p_WC += xi.segment<3>(6 * i);
+    state.body[i].R_WB = orthonormalised(state.body[i].R_WB * exp_rotation(xi.segment<3>(6 * i + 3)));
+  }
+}
+
+double limit_motion(VectorX& xi) {
+  double factor = 1.0;
+  for (int i = 0; i < xi.size(); i += 6) {
+    factor = std::min(factor, kLargestMove / std::max(kLargestMove, xi.segment<3>(i).norm()));
+    factor = std::min(factor, kLargestTurn / std::max(kLargestTurn, xi.segment<3>(i + 3).norm()));
+  }
+  xi *= factor;
+  return factor;
+}
+
+BalanceMeasure::BalanceMeasure(const MultibodySystem& system) : system_(system), scale_(system.coordinates()) {
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const RigidBody& b = system.bodies[i];
+    weight_ = std::max(weight_, b.mass * std::max(system.gravity, 1e-3));
+    scale_.segment<3>(6 * i).setOnes();
+    scale_.segment<3>(6 * i + 3).setConstant(1.0 / std::max(1e-3, std::sqrt(b.inertia.trace() / (3.0 * b.mass))));
+  }
+}
+
+double BalanceMeasure::out_of_balance(const VectorX& Q, const MatrixX& C_q, const VectorX& lambda,
+                                      std::string& worst_body) const {
+  const VectorX forces = (Q - C_q.transpose() * lambda).cwiseProduct(scale_) / weight_;
+  int worst = 0;
+  const double largest = forces.cwiseAbs().maxCoeff(&worst);
+  worst_body = system_.bodies[static_cast<std::size_t>(worst / 6)].name;
+  return largest;
+}
 
 bool same_statics(const MultibodySystem& a, const MultibodySystem& b, const SystemState& at) {
   if (a.gravity != b.gravity || a.bodies.size() != b.bodies.size() || a.joints.size() != b.joints.size() ||
@@ -72,7 +88,8 @@ bool same_statics(const MultibodySystem& a, const MultibodySystem& b, const Syst
   return true;
 }
 
-EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state, bool close_to_it) {
+EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state, bool close_to_it,
+                                    int max_iterations) {
   const int n = system.coordinates(), m = system.constraints();
   SystemWorkspace work = system.make_workspace();
   for (BodyKinematics& b : state.body) b.v_WC = b.w_B = Vector3::Zero();
@@ -80,14 +97,7 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
   state.acceleration = VectorX::Zero(n);
   if (state.lambda.size() != m) state.lambda = VectorX::Zero(m);
 
-  double weight = 1e-3;
-  VectorX scale(n);  // a moment counts as a force at the body's radius of gyration
-  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    const RigidBody& b = system.bodies[i];
-    weight = std::max(weight, b.mass * std::max(system.gravity, 1e-3));
-    scale.segment<3>(6 * i).setOnes();
-    scale.segment<3>(6 * i + 3).setConstant(1.0 / std::max(1e-3, std::sqrt(b.inertia.trace() / (3.0 * b.mass))));
-  }
+  const BalanceMeasure measure(system);
   const double lambda_scale = system.mass().trace() / std::max(1, n);
 
   EquilibriumReport report;
@@ -95,14 +105,11 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
   VectorX Q(n), C, b(n + m);
   double shift = close_to_it ? kSmallestShift : 1.0, last = -1.0, polished = 0.0;
   if (static_cast<int>(state.element_state.size()) != system.element_state_size()) system.start_elements(state, work);
-  for (report.iterations = 0; report.iterations < kMaxNewtonSteps; ++report.iterations) {
+  for (report.iterations = 0; report.iterations < max_iterations; ++report.iterations) {
     system.forces(state, 0.0, work, Q);
     system.constraint_jacobian(state, C_q);
     system.constraint_values(state, C);
-    const VectorX out_of_balance = (Q - C_q.transpose() * state.lambda).cwiseProduct(scale) / weight;
-    int worst = 0;
-    report.residual = out_of_balance.cwiseAbs().maxCoeff(&worst);
-    report.worst_body = system.bodies[worst / 6].name;
+    report.residual = measure.out_of_balance(Q, C_q, state.lambda, report.worst_body);
     if (!std::isfinite(report.residual)) return report;
     const double gap = m > 0 ? C.cwiseAbs().maxCoeff() : 0.0;
     const bool close = report.residual < kForceTolerance && gap < 1e-10;
@@ -130,8 +137,8 @@ EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& 
     const VectorX x = A.partialPivLu().solve(b);
     if (!x.allFinite()) return report;
     VectorX xi = x.head(n);
-    const double factor = limit(xi);
-    move(state, xi);
+    const double factor = limit_motion(xi);
+    move_bodies(state, xi);
     state.lambda += factor * (lambda_scale * x.tail(m) - state.lambda);
   }
   return report;
@@ -149,8 +156,8 @@ double assemble_joints(const MultibodySystem& system, SystemState& state, std::s
     if (worst < 1e-12) break;
     system.constraint_jacobian(state, C_q);
     VectorX xi = -C_q.completeOrthogonalDecomposition().solve(C);
-    limit(xi);
-    move(state, xi);
+    limit_motion(xi);
+    move_bodies(state, xi);
   }
   return worst;
 }

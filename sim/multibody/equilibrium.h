@@ -19,12 +19,34 @@ struct EquilibriumReport {
   int iterations = 0;
   double residual = 0.0;   // largest out-of-balance force as a share of the largest body's weight
   std::string worst_body;  // where it is
+  std::string motion;      // what goes on moving where no equilibrium is found, in words; may be empty
+};
+
+/// Adds a small motion (6 per body: m in W, rad in B) to the bodies' poses.
+void move_bodies(SystemState& state, const VectorX& xi);
+
+/// Scales a motion back to the largest that one step may make; returns the factor.
+double limit_motion(VectorX& xi);
+
+/// How far a system is out of balance, as a share of the largest body's weight; a moment counts as a force at the body's
+/// radius of gyration.
+class BalanceMeasure {
+ public:
+  explicit BalanceMeasure(const MultibodySystem& system);
+  double out_of_balance(const VectorX& Q, const MatrixX& C_q, const VectorX& lambda, std::string& worst_body) const;
+
+ private:
+  const MultibodySystem& system_;
+  double weight_ = 1e-3;  // N
+  VectorX scale_;
 };
 
 /// Moves the bodies of `state` to equilibrium; velocities and accelerations become zero, lambda the reactions, the
 /// elements' states steady (they are started first if the state has none). The elements see the time state.t (use t < 0
-/// for calm water). `close`: the state, lambda included, is already nearly there; s is small from the start.
-EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state, bool close = false);
+/// for calm water). `close`: the state, lambda included, is already nearly there; s is small from the start. The
+/// equilibrium may be unstable: see relaxation.h.
+EquilibriumReport solve_equilibrium(const MultibodySystem& system, SystemState& state, bool close = false,
+                                    int max_iterations = 600);
 
 /// True if at rest in this state both systems have the same weights, joints and forces, to the last bit, so that an
 /// equilibrium of one is an equilibrium of the other. `state` is one of `b`, whose elements may go on after those of `a`.
