@@ -83,6 +83,7 @@ std::string limits_text(const std::vector<LimitCheck>& limits) {
 }
 
 std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& limits) {
+  if (metrics.status == RunStatus::failed) return coloured(Colour::bad, "FAILED") + ": " + metrics.message;
   if (limits.empty()) return "No limits to keep.";
   const LimitCheck* governing = governing_check(limits);
   const std::string unit = governing->unit == "1" ? "" : " " + governing->unit;
