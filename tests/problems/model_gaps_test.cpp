@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "problems/case.h"
 #include "problems/case_reader.h"
 
 using namespace stillhook;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/build_model.h"
+#include "sim/model.h"
 #include "sim/drive_unit.h"
 #include "sim/recorder.h"
 
