@@ -204,6 +204,7 @@ Summary tuning_summary(const Evaluator& evaluator, const GainTuning& result, dou
   s.wall = wall;
   s.limits = deciding_limits(evaluator, result.tuned);
   s.metrics = deciding_metrics(evaluator, result.tuned);
+  if (s.status != RunStatus::interrupted) s.status = s.metrics.status;
   s.objective = ObjectiveSummary{result.baseline.objective, result.tuned.objective};
   s.search =
       SearchSummary{result.report.algorithm, result.report.evaluations, result.simulations, evaluator.base().plan.seed};

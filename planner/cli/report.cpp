@@ -36,6 +36,7 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
     const Summary summary = read_summary(folder.summary());
     run.metrics = summary.metrics;
     run.limits = summary.limits;
+    run.warnings = summary.warnings;
   } else {
     run.metrics = deciding_metrics(evaluator, result.search.best);
     run.limits = deciding_limits(evaluator, result.search.best);
