@@ -1,5 +1,6 @@
 #include "planner/plan.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -108,6 +109,25 @@ std::vector<Eigen::VectorXd> follow_gradients(const Evaluator& evaluator, Search
   return starts;
 }
 
+int broken_limits(const Evaluation& e) {
+  return static_cast<int>(std::count_if(e.constraints.begin(), e.constraints.end(), [](double g) { return g > 0.0; }));
+}
+
+/// Where nothing keeps every limit, the search has gone by the one that is broken worst. A point that breaks more limits
+/// than the case does, and has the worse objective as well, is no plan: the case itself then is the answer.
+void keep_case_if_better(const Evaluator& evaluator, PlanResult& result) {
+  SearchReport& search = result.search;
+  if (search.feasible || !search.best.usable || !result.baseline.usable) return;
+  if (broken_limits(search.best) <= broken_limits(result.baseline) ||
+      search.best.objective <= result.baseline.objective)
+    return;
+  search.best = result.baseline;
+  search.best_x = evaluator.baseline();
+  search.best_evaluation = 1;
+  search.message += ". What violates the limits least breaks more of them than the case does, for a worse objective: "
+                    "the case stays";
+}
+
 PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem, const SearchProblem& smooth,
                         EvaluationStore& store, const PlanOptions& options) {
   SearchOptions search_with = search_options(evaluator.base().plan);
@@ -131,6 +151,12 @@ PlanResult run_searches(const Evaluator& evaluator, const SearchProblem& problem
   result.search = search(asked.watch(with_store(problem, store, "search")), search_with);
   result.distinct = asked.count();
   result.interrupted = result.search.status == SearchStatus::interrupted;
+  if (!result.interrupted && result.search.evaluations > 0) {
+    const bool had_plan = result.has_plan();
+    const Eigen::VectorXd found = result.search.best_x;
+    keep_case_if_better(evaluator, result);
+    if (had_plan && options.improved && found != result.search.best_x) options.improved(result.search.best_x);
+  }
   if (result.interrupted || result.search.evaluations == 0 || !evaluator.base().plan.random_search) return result;
 
   SearchOptions sample_with = search_with;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,11 +27,10 @@ double objective_or_nan(const Evaluation& evaluation) {
 
 bool feasible(const Evaluation& evaluation) { return evaluation.usable && evaluation.violation() <= 0.0; }
 
-}  // namespace
-
-std::vector<LimitCheck> limits_of(const Evaluator& evaluator, const ScenarioOutcome& outcome) {
+Metrics metrics_of(const Evaluator& evaluator, const ScenarioOutcome& outcome) {
   Metrics metrics;
   metrics.status = outcome.status;
+  metrics.message = outcome.message;
   for (std::size_t i = 0; i < outcome.metrics.size(); ++i) {
     if (std::isnan(outcome.metrics[i])) continue;
     Metric metric;
@@ -39,26 +39,84 @@ std::vector<LimitCheck> limits_of(const Evaluator& evaluator, const ScenarioOutc
     metric.value = outcome.metrics[i];
     metrics.items.push_back(metric);
   }
-  return check_limits(evaluator.base().limits, metrics);
+  return metrics;
 }
 
-std::vector<LimitCheck> worst_limits(const std::vector<std::vector<LimitCheck>>& by_scenario) {
-  std::vector<LimitCheck> worst;
-  for (const std::vector<LimitCheck>& checks : by_scenario) {
-    if (worst.empty()) worst = checks;
-    for (std::size_t i = 0; i < checks.size(); ++i) {
-      // A value that could not be computed is the worst there is.
-      const bool smaller = std::isnan(checks[i].margin) || checks[i].margin < worst[i].margin;
-      if (smaller && !std::isnan(worst[i].margin)) worst[i] = checks[i];
-    }
+void in_catalogue_order(const Evaluator& evaluator, Metrics& metrics) {
+  const std::vector<std::string>& names = evaluator.metric_names();
+  const auto place = [&](const Metric& m) { return std::find(names.begin(), names.end(), m.name) - names.begin(); };
+  std::stable_sort(metrics.items.begin(), metrics.items.end(),
+                   [&](const Metric& a, const Metric& b) { return place(a) < place(b); });
+}
+
+}  // namespace
+
+std::vector<LimitCheck> limits_of(const Evaluator& evaluator, const ScenarioOutcome& outcome) {
+  return check_limits(evaluator.base().limits, metrics_of(evaluator, outcome));
+}
+
+std::vector<LimitCheck> deciding_limits(const Evaluator& evaluator,
+                                        const std::vector<std::vector<LimitCheck>>& by_scenario) {
+  if (by_scenario.empty()) return {};
+  std::vector<double> shares;  // as check_limits() makes one or two checks of a limit
+  for (const LimitSpec& limit : evaluator.base().limits) {
+    if (limit.max) shares.push_back(limit.share);
+    if (limit.min) shares.push_back(limit.share);
   }
-  return worst;
+  std::vector<LimitCheck> decided;
+  for (std::size_t k = 0; k < by_scenario.front().size(); ++k) {
+    std::vector<double> excess;
+    for (const std::vector<LimitCheck>& checks : by_scenario) {
+      // A value that could not be computed is the worst there is.
+      const bool known = std::isfinite(checks[k].margin);
+      excess.push_back(known ? -checks[k].margin : std::numeric_limits<double>::infinity());
+    }
+    const std::size_t s = evaluator.deciding(shares[k], excess);
+    decided.push_back(by_scenario[s][k]);
+    if (by_scenario.size() > 1) decided.back().scenario = evaluator.scenarios()[s].name;
+  }
+  return decided;
 }
 
-std::vector<LimitCheck> worst_limits(const Evaluator& evaluator, const Evaluation& evaluation) {
+std::vector<LimitCheck> deciding_limits(const Evaluator& evaluator, const Evaluation& evaluation) {
   std::vector<std::vector<LimitCheck>> all;
   for (const ScenarioOutcome& outcome : evaluator.outcomes(evaluation)) all.push_back(limits_of(evaluator, outcome));
-  return worst_limits(all);
+  return deciding_limits(evaluator, all);
+}
+
+Metrics deciding_metrics(const Evaluator& evaluator, const std::vector<Metrics>& by_scenario,
+                         const std::vector<LimitCheck>& limits, std::size_t shown) {
+  if (by_scenario.empty()) return {};
+  Metrics metrics = by_scenario[shown];
+  if (by_scenario.size() == 1) return metrics;
+  const auto name_of = [&](std::size_t s) { return evaluator.scenarios()[s].name; };
+  for (std::size_t s = by_scenario.size(); s-- > 0;)
+    if (by_scenario[s].status != RunStatus::completed) {
+      metrics.status = by_scenario[s].status;
+      metrics.message = name_of(s) + ": " + by_scenario[s].message;
+      metrics.failed_at = by_scenario[s].failed_at;
+    }
+  for (Metric& metric : metrics.items) metric.scenario = name_of(shown);
+  for (const LimitCheck& limit : limits)
+    for (std::size_t s = 0; s < by_scenario.size(); ++s) {
+      if (limit.scenario != name_of(s)) continue;
+      const Metric* deciding = by_scenario[s].find(limit.metric);
+      const auto place = std::find_if(metrics.items.begin(), metrics.items.end(),
+                                      [&](const Metric& m) { return m.name == limit.metric; });
+      if (place != metrics.items.end()) metrics.items.erase(place);
+      if (!deciding) continue;  // a limit without a value is broken, another scenario's value would hide it
+      metrics.items.push_back(*deciding);
+      metrics.items.back().scenario = limit.scenario;
+    }
+  in_catalogue_order(evaluator, metrics);
+  return metrics;
+}
+
+Metrics deciding_metrics(const Evaluator& evaluator, const Evaluation& evaluation) {
+  std::vector<Metrics> all;
+  for (const ScenarioOutcome& outcome : evaluator.outcomes(evaluation)) all.push_back(metrics_of(evaluator, outcome));
+  return all.empty() ? Metrics() : deciding_metrics(evaluator, all, deciding_limits(evaluator, evaluation),
+                                                    governing_scenario(evaluator, evaluation));
 }
 
 std::size_t governing_scenario(const Evaluator& evaluator, const Evaluation& evaluation) {
@@ -89,8 +147,9 @@ std::string scenario_text(const ScenarioSpec& scenario) {
 }
 
 std::string history_note(const Evaluator& evaluator, std::size_t scenario) {
-  return "Histories and metrics show the scenario that comes closest to a limit: " +
-         scenario_text(evaluator.scenarios()[scenario]) + ".";
+  return "Histories show the scenario that comes closest to a limit: " +
+         scenario_text(evaluator.scenarios()[scenario]) +
+         ". A limit, and the metric it limits, is of the scenario that decides whether it is kept.";
 }
 
 SearchSection search_section(const Evaluator& evaluator, const PlanResult& result, double wall) {
@@ -122,8 +181,10 @@ SearchSection search_section(const Evaluator& evaluator, const PlanResult& resul
     s.variables.push_back({v.key, v.lower, v.upper, evaluator.baseline()[k],
                            result.search.best_x.size() ? result.search.best_x[k] : SearchSection::kNone});
   }
-  s.baseline_limits = worst_limits(evaluator, result.baseline);
-  s.plan_limits = worst_limits(evaluator, best);
+  s.baseline_limits = deciding_limits(evaluator, result.baseline);
+  s.plan_limits = deciding_limits(evaluator, best);
+  if (evaluator.scenarios().size() > 1 && result.has_plan())
+    s.shown = evaluator.scenarios()[governing_scenario(evaluator, best)].name;
   for (const PlanResult::Point& point : result.history) s.history.push_back({point.objective, point.feasible});
   for (const PlanResult::Point& point : result.random_history)
     s.random_history.push_back({point.objective, point.feasible});

@@ -13,11 +13,22 @@ namespace stillhook {
 /// The limits as one scenario of an evaluation kept them: values, no times.
 std::vector<LimitCheck> limits_of(const Evaluator& evaluator, const ScenarioOutcome& outcome);
 
-/// Limit by limit the check with the smallest margin; all lists have the same limits in the same order.
-std::vector<LimitCheck> worst_limits(const std::vector<std::vector<LimitCheck>>& by_scenario);
+/// Limit by limit the check of the scenario that decides: the one with the smallest margin, or where a share of the
+/// scenarios may break the limit, the one with the smallest margin beyond that share. All lists have the limits of the
+/// case in its order. This rule is the search's own, and that of every table and file that a plan leaves.
+std::vector<LimitCheck> deciding_limits(const Evaluator& evaluator,
+                                        const std::vector<std::vector<LimitCheck>>& by_scenario);
 
 /// The limits over all scenarios of an evaluation.
-std::vector<LimitCheck> worst_limits(const Evaluator& evaluator, const Evaluation& evaluation);
+std::vector<LimitCheck> deciding_limits(const Evaluator& evaluator, const Evaluation& evaluation);
+
+/// The metrics that go with such limits: what is limited, from the scenario that decides; everything else from scenario
+/// `shown`, whose history the folder holds. Its status is that of the first scenario that was not completed, if any.
+Metrics deciding_metrics(const Evaluator& evaluator, const std::vector<Metrics>& by_scenario,
+                         const std::vector<LimitCheck>& limits, std::size_t shown);
+
+/// The same of an evaluation: values, no times.
+Metrics deciding_metrics(const Evaluator& evaluator, const Evaluation& evaluation);
 
 /// The scenario that a plan's history and report show: the one that comes closest to a hard limit, relative to the
 /// limit's scale; without hard limits the one with the largest objective.

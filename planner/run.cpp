@@ -23,7 +23,7 @@ RunResult run_lift(const PreparedRun& prepared, const std::vector<LimitSpec>& li
   Trajectory trajectory = simulate(prepared.model, prepared.operation, options);
   if (archive) archive->finish(trajectory);
   RunResult result = judged(prepared.model.specification(), std::move(trajectory), limits);
-  result.warnings = prepared.model.warnings();
+  result.warnings = prepared.warnings;
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "problems/case.h"
+#include "problems/model_gaps.h"
 #include "results/archive_stream.h"
 #include "results/summary.h"
 #include "sim/simulate.h"
@@ -18,7 +19,7 @@ struct RunResult {
   Trajectory trajectory;
   Metrics metrics;
   std::vector<LimitCheck> limits;
-  std::vector<std::string> warnings;  // of the model
+  std::vector<std::string> warnings;  // as PreparedRun's
 
   /// Completed and no hard limit violated.
   bool passed() const { return within_limits(metrics, limits); }
@@ -27,9 +28,12 @@ struct RunResult {
 /// A lift built and its operation worked out, ready to simulate. Throws SpecificationError.
 struct PreparedRun {
   explicit PreparedRun(const Specification& specification, const HydroProgress& progress = {})
-      : model(build_model(specification, progress)), operation(build_operation(model)) {}
+      : model(build_model(specification, progress)), operation(build_operation(model)), warnings(model.warnings()) {
+    for (std::string& gap : model_gaps(model, operation)) warnings.push_back(std::move(gap));
+  }
   Model model;
   Operation operation;
+  std::vector<std::string> warnings;  // of the model, and of what it leaves out in this lift
 };
 
 /// The specification, which is the case's or a change of it, ready to simulate. Throws CaseError with the place in the

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <set>
 
+#include "planner/hinge_table.h"
 #include "planner/mooring_tables.h"
 #include "planner/natural_periods.h"
 #include "planner/text_number.h"
 #include "planner/vessel_statics.h"
+#include "sim/drive_unit.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -49,31 +49,6 @@ ReportTable place_table(const Model& model, const std::vector<StaticPose>& poses
   return table;
 }
 
-ReportTable angle_table(const Model& model, const std::vector<StaticPose>& poses) {
-  const Specification& spec = model.specification();
-  std::set<std::string> hinged;
-  for (const JointSpec& joint : spec.joints)
-    if (joint.type == JointSpec::Type::revolute) hinged.insert(joint.child);
-  ReportTable table;
-  table.title = "Hinged bodies";
-  table.note = "Angle of the body's x axis above the crane's x axis, deg.";
-  table.header = {"pose"};
-  for (const BodySpec& body : spec.bodies)
-    if (hinged.contains(body.name)) table.header.push_back(body.name);
-  const int crane = spec.operation.crane.empty() ? kWorld : model.body_index(spec.operation.crane);
-  for (const StaticPose& pose : poses) {
-    std::vector<std::string> row = {pose.name};
-    const Matrix3 R_WV = crane == kWorld ? Matrix3::Identity().eval() : pose.bodies[static_cast<std::size_t>(crane)].R;
-    for (std::size_t i = 0; i < spec.bodies.size(); ++i) {
-      if (!hinged.contains(spec.bodies[i].name)) continue;
-      const Vector3 x_V = R_WV.transpose() * pose.bodies[i].R.col(0);
-      row.push_back(cell(std::atan2(x_V.z(), x_V.x()) / kDegree, 3));
-    }
-    table.rows.push_back(row);
-  }
-  return table;
-}
-
 ReportTable wire_table(const Model& model, const std::vector<StaticPose>& poses, const std::string& title,
                        const std::string& note, const std::string& channel, double unit, int decimals) {
   ReportTable table;
@@ -97,18 +72,15 @@ struct DriveUnit {
 };
 
 DriveUnit unit_of(const Model& model, const DriveSpec& drive) {
-  switch (drive.kind) {
-    case DriveSpec::Kind::winch:
-    case DriveSpec::Kind::tow:
-      return {"m", "m/min"};
-    case DriveSpec::Kind::ballast:
+  switch (drive_motion(model.specification(), drive)) {
+    case DriveMotion::share:
       return {"%", "%/min", 100.0, 6000.0};
-    case DriveSpec::Kind::joint:
+    case DriveMotion::angle:
+      return {"deg", "deg/min", 1.0 / kDegree, 60.0 / kDegree};
+    case DriveMotion::length:
       break;
   }
-  for (const JointSpec& joint : model.specification().joints)
-    if (joint.drive == drive.name && joint.type == JointSpec::Type::prismatic) return {"m", "m/min"};
-  return {"deg", "deg/min", 1.0 / kDegree, 60.0 / kDegree};
+  return {"m", "m/min"};
 }
 
 }  // namespace
@@ -123,7 +95,7 @@ std::vector<ReportTable> static_tables(const Model& model, const std::vector<Sta
   std::vector<ReportTable> tables;
   if (!model.specification().operation.load.empty()) tables.push_back(place_table(model, poses));
   for (ReportTable& table : vessel_tables(model, poses)) tables.push_back(std::move(table));
-  if (ReportTable angles = angle_table(model, poses); angles.header.size() > 1) tables.push_back(std::move(angles));
+  if (ReportTable angles = hinge_table(model, poses); angles.header.size() > 1) tables.push_back(std::move(angles));
   for (ReportTable& table : period_tables(model, poses)) tables.push_back(std::move(table));
   for (ReportTable& table : mooring_tables(model)) tables.push_back(std::move(table));
   if (model.specification().wires.empty()) return tables;

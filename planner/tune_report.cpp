@@ -202,7 +202,9 @@ Summary tuning_summary(const Evaluator& evaluator, const GainTuning& result, dou
   s.status = result.report.status == SearchStatus::interrupted ? RunStatus::interrupted : RunStatus::completed;
   s.message = tuning_verdict(result);
   s.wall = wall;
-  s.limits = worst_limits(evaluator, result.tuned);
+  s.limits = deciding_limits(evaluator, result.tuned);
+  s.metrics = deciding_metrics(evaluator, result.tuned);
+  if (s.status != RunStatus::interrupted) s.status = s.metrics.status;
   s.objective = ObjectiveSummary{result.baseline.objective, result.tuned.objective};
   s.search =
       SearchSummary{result.report.algorithm, result.report.evaluations, result.simulations, evaluator.base().plan.seed};

@@ -5,6 +5,7 @@
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
+#include "sim/drive_unit.h"
 
 namespace stillhook {
 namespace {
@@ -213,11 +214,8 @@ class LiftCheck {
 
   /// The unit that a position, travel or speed of this drive is given in.
   std::string unit_of(const DriveSpec& d) const {
-    if (d.kind == DriveSpec::Kind::ballast) return "share";
-    if (d.kind != DriveSpec::Kind::joint) return "m";
-    for (const JointSpec& j : spec_.joints)
-      if (j.drive == d.name) return j.type == JointSpec::Type::revolute ? "deg" : "m";
-    return "m";
+    const DriveMotion motion = drive_motion(spec_, d);
+    return motion == DriveMotion::share ? "share" : motion == DriveMotion::angle ? "deg" : "m";
   }
 
   /// Of the written keys of an entry, those that carry the wrong unit for its drive.

@@ -311,7 +311,7 @@ const Table& sea_table() {
     t.number("ramp_s", &S::ramp, unit::s, not_negative(), "The waves grow smoothly from nothing over this time.");
     t.number("density_kg_per_m3", &S::density, unit::kg_per_m3, positive(), "Density of the water.");
     t.number("gravity_m_per_s2", &S::gravity, unit::m_per_s2, positive(), "Acceleration of gravity.");
-    t.number("depth_m", &S::depth, unit::m, positive(), "Water depth, for moorings; waves are deep-water waves.")
+    t.number("depth_m", &S::depth, unit::m, positive(), "Water depth, for moorings; waves are deep-water waves, and a warning says where they would feel the bottom.")
         .absent("deep");
     t.tables("states", &S::states, "name", &sea_state_table, "Sea states.");
     return t.build();

@@ -198,7 +198,8 @@ const Table& operation_table() {
     using S = OperationSpec;
     TableOf<S> t("operation", "What is done: phases in sequence.");
     t.text("load", &S::load, "The lifted body.").names(Reference::body).absent("none");
-    t.text("crane", &S::crane, "The vessel whose heading defines off-lead and side-lead.")
+    t.text("crane", &S::crane, "The crane vessel, or a body that stands on one: heel and trim are those of the vessel under it. Not needed where "
+           "the joints under the hoist wires lead to the vessel.")
         .names(Reference::body)
         .absent("none");
     t.vector("target_m", &S::target, unit::m, any_value(),

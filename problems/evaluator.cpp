@@ -119,12 +119,13 @@ ScenarioOutcome Evaluator::run_scenario(const Case& c, const ScenarioSpec& scena
 
 void Evaluator::note_run(const Specification& specification, const Trajectory& run, double planned,
                          ScenarioOutcome& outcome) const {
-  outcome.status = run.status;
-  outcome.message = run.message;
-  const double last = run.time.empty() ? 0.0 : run.time.back();
-  outcome.reached =
-      run.status == RunStatus::completed ? 1.0 : std::clamp(planned > 0.0 ? last / planned : 0.0, 0.0, 1.0);
   const Metrics metrics = compute_metrics(specification, run);
+  outcome.status = metrics.status;
+  outcome.message = metrics.message;
+  double last = run.time.empty() ? 0.0 : run.time.back();
+  if (metrics.status == RunStatus::failed) last = metrics.failed_at;
+  outcome.reached =
+      metrics.status == RunStatus::completed ? 1.0 : std::clamp(planned > 0.0 ? last / planned : 0.0, 0.0, 1.0);
   for (std::size_t i = 0; i < metric_names_.size(); ++i) outcome.metrics[i] = metrics.value(metric_names_[i]);
 }
 
@@ -173,7 +174,7 @@ double Evaluator::constraint_of(const ScenarioOutcome& outcome, const Constraint
   return std::isfinite(scaled) ? scaled : 1.0;
 }
 
-std::size_t Evaluator::deciding(const ConstraintSpec& constraint, const std::vector<double>& values) const {
+std::size_t Evaluator::deciding(double share, const std::vector<double>& values) const {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
@@ -181,7 +182,7 @@ std::size_t Evaluator::deciding(const ConstraintSpec& constraint, const std::vec
   for (const ScenarioSpec& s : scenarios_) total += s.weight;
   for (const std::size_t i : order) {
     passed += scenarios_[i].weight;
-    if (passed > constraint.share * total * (1.0 + 1e-12)) return i;
+    if (passed > share * total * (1.0 + 1e-12)) return i;
   }
   return order.front();
 }
@@ -254,7 +255,7 @@ Evaluation Evaluator::aggregated(const std::vector<ScenarioOutcome>& outcomes) c
     const ConstraintSpec& constraint = constraints_[static_cast<std::size_t>(i)];
     std::vector<double> values;
     for (const ScenarioOutcome& outcome : outcomes) values.push_back(constraint_of(outcome, constraint));
-    e.constraints[i] = values[deciding(constraint, values)];
+    e.constraints[i] = values[deciding(constraint.share, values)];
   }
   return e;
 }

@@ -97,6 +97,10 @@ class Evaluator {
   double objective_of(const ScenarioOutcome& outcome) const;
   double metric_of(const ScenarioOutcome& outcome, const std::string& name) const;
 
+  /// The scenario that decides whether a limit is kept that may be broken in a share of the scenarios' weight, given by
+  /// how much each exceeds it: the largest excess but that share.
+  std::size_t deciding(double share, const std::vector<double>& excess) const;
+
   /// How close a scenario comes to its hard limits: the largest scaled constraint; without hard limits its objective.
   double closeness(const ScenarioOutcome& outcome) const;
 
@@ -122,8 +126,6 @@ class Evaluator {
   /// How much each scenario counts in the aggregated objective; they sum to one.
   Eigen::VectorXd scenario_shares(const Eigen::VectorXd& objectives) const;
   double constraint_of(const ScenarioOutcome& outcome, const ConstraintSpec& constraint) const;
-  /// The scenario whose value counts for a constraint, given its value in each.
-  std::size_t deciding(const ConstraintSpec& constraint, const std::vector<double>& values) const;
 
   Case case_;
   const std::atomic<bool>* stop_;

@@ -59,7 +59,7 @@ Evaluator::SmoothOutcome Evaluator::run_smooth(const Case& c, const ScenarioSpec
   try {
     const TangentRun run = run_with_tangents(c, request, options);
     note_run(request.condition(c.specification), run.trajectory, end, result.outcome);
-    if (run.trajectory.status != RunStatus::completed) return result;
+    if (result.outcome.status != RunStatus::completed) return result;
     const Trajectory reduced = reduced_run(run.trajectory, run.tangents);
     result.value = smooth_values(reduced, smooth);
     result.valid = gradient && run.tangents.valid;
@@ -111,8 +111,12 @@ Evaluation Evaluator::aggregated_smooth(const std::vector<SmoothOutcome>& outcom
     const double sign = (c.is_max ? 1.0 : -1.0) / c.scale;
     std::vector<double> values;
     for (const SmoothOutcome& outcome : outcomes) values.push_back(sign * (outcome.value[terms + i] - c.limit));
-    const std::size_t s = deciding(c, values);
-    if (!std::isfinite(values[s])) continue;  // the value as it is says what to think of it
+    const std::size_t s = deciding(c.share, values);
+    if (!std::isfinite(values[s])) {
+      // The value as it is says what to think of it. Where there is one, its derivative is not zero but unknown.
+      if (std::isfinite(metric_of(raw[s], c.metric))) e.gradient_valid = false;
+      continue;
+    }
     e.constraints[i] = values[s];
     e.constraint_jacobian.row(i) = sign * outcomes[s].slope.row(terms + i);
   }

@@ -18,6 +18,7 @@ std::vector<LimitCheck> check_limits(const std::vector<LimitSpec>& limits, const
       c.value = m->value;
       c.time = m->time;
       c.phase = m->phase;
+      c.scenario = m->scenario;
     }
     c.margin = is_max ? limit - c.value : c.value - limit;
     c.pass = std::isfinite(c.value) && c.margin >= 0.0;

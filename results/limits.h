@@ -19,6 +19,7 @@ struct LimitSpec {
 
 struct LimitCheck {
   std::string metric, unit, source, phase;
+  std::string scenario;  // of a plan in several: the one that decides whether the limit is kept
   double value = std::numeric_limits<double>::quiet_NaN();
   double limit = std::numeric_limits<double>::quiet_NaN();
   double margin = std::numeric_limits<double>::quiet_NaN();  // limit - value for a max, value - limit for a min

@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include "results/clearance.h"
+#include "results/failures.h"
 #include "results/metric_list.h"
+#include "sim/crane_parts.h"
 
 namespace stillhook {
 namespace {
@@ -35,19 +37,25 @@ std::vector<MetricDefinition> build_catalogue() {
   add("sway_peak", "m", "largest horizontal swing of the load relative to the boom tips, over the hanging phases");
   add("sway_rms.%", "m", "rms swing in one hanging or set-down phase", "phase");
   add("sway_peak.%", "m", "largest swing in one hanging or set-down phase", "phase");
-  add("offlead_max", "deg", "largest off-lead of any hoist wire while it carries the load");
-  add("sidelead_max", "deg", "largest side-lead of any hoist wire while it carries the load");
-  add("offlead_max.%", "deg", "largest off-lead of a hoist wire while it carries the load", "hoist wire");
-  add("sidelead_max.%", "deg", "largest side-lead of a hoist wire while it carries the load", "hoist wire");
+  const char *wire_or_crane = "hoist wire or crane", *crane = "crane", *vessel = "crane vessel";
+  add("offlead_max", "deg", "largest angle of any hoist wire in its boom's plane while it carries the load");
+  add("sidelead_max", "deg", "largest angle of any hoist wire out of its boom's plane while it carries the load");
+  add("offlead_max.%", "deg", "largest angle of a hoist wire in its boom's plane while it carries the load",
+      wire_or_crane);
+  add("sidelead_max.%", "deg", "largest angle of a hoist wire out of its boom's plane while it carries the load",
+      wire_or_crane);
 
-  add("daf_total", "1", "dynamic amplification of the total hook load, hanging phases");
-  add("daf_max", "1", "largest dynamic amplification of any hoist wire, hanging phases");
-  add("daf_excess", "1", "daf_max - 1: what the dynamics add to the static tension");
-  add("daf.%", "1", "dynamic amplification of a wire, max tension / static tension, hanging phases", "wire");
-  add("slack_ratio_min", "1", "smallest tension / static tension of any hoist wire, hanging phases");
-  add("slack_ratio_min.%", "1", "smallest tension / static tension of a hoist wire, hanging phases", "hoist wire");
+  add("daf_total", "1", "largest total hook load / static load, lift-off and set-down included");
+  add("daf_max", "1", "largest tension / static load of any hoist wire, lift-off and set-down included");
+  add("daf_excess", "1", "daf_max - 1: what the dynamics add to the static load");
+  add("daf.%", "1", "largest tension / static load of a wire, lift-off and set-down included", "wire");
+  add("slack_ratio_min", "1", "smallest tension / static load of any hoist wire while the load hangs free");
+  add("slack_ratio_min.%", "1", "smallest tension / static load of a hoist wire while the load hangs free",
+      "hoist wire");
   add("tension_max.%", "kN", "largest tension of a wire", "wire");
   add("hook_load_max", "kN", "largest total tension of the hoist wires");
+  add("hook_load_max.%", "kN", "largest total tension of the hoist wires of a boom, or of all booms of a vessel",
+      crane);
   add("wire_utilisation_max", "1", "largest tension / breaking load of the wires that give one");
 
   add("winch_speed_max.%", "m/s", "largest speed of a winch", "winch");
@@ -84,10 +92,14 @@ std::vector<MetricDefinition> build_catalogue() {
   add("load_tilt_max", "deg", "largest tilt of the load from the vertical while setting down");
   add("load_yaw_max", "deg", "largest plan rotation of the load from its landed heading while setting down");
 
-  add("heel_max", "deg", "largest heel of the crane vessel, waves included");
-  add("trim_max", "deg", "largest trim of the crane vessel, waves included");
-  add("heel_static_max", "deg", "largest heel of the crane vessel in calm water at the ends of the phases");
-  add("trim_static_max", "deg", "largest trim of the crane vessel in calm water at the ends of the phases");
+  add("heel_max", "deg", "largest heel of any crane vessel, waves included");
+  add("trim_max", "deg", "largest trim of any crane vessel, waves included");
+  add("heel_static_max", "deg", "largest heel of any crane vessel in calm water at the ends of the phases");
+  add("trim_static_max", "deg", "largest trim of any crane vessel in calm water at the ends of the phases");
+  add("heel_max.%", "deg", "largest heel of a crane vessel, waves included", vessel);
+  add("trim_max.%", "deg", "largest trim of a crane vessel, waves included", vessel);
+  add("heel_static_max.%", "deg", "largest heel of a crane vessel in calm water at the ends of the phases", vessel);
+  add("trim_static_max.%", "deg", "largest trim of a crane vessel in calm water at the ends of the phases", vessel);
   add("clearance_min.%", "m", "smallest distance of a clearance pair; 0 when they touch", "clearance");
   return c;
 }
@@ -101,7 +113,11 @@ std::vector<std::string> element_names(const std::string& kind, const Specificat
   const auto any = [](const auto&) { return true; };
   if (kind == "phase") collect(s.operation.phases, any);
   if (kind == "wire") collect(s.wires, any);
-  if (kind == "hoist wire") collect(s.wires, [](const WireSpec& w) { return w.role == WireSpec::Role::hoist; });
+  const bool with_cranes = kind == "hoist wire or crane";
+  if (kind == "hoist wire" || with_cranes) collect(s.wires, [](const WireSpec& w) { return w.role == WireSpec::Role::hoist; });
+  if (kind == "crane vessel") names = crane_vessels(s);
+  if (kind == "crane" || with_cranes)
+    for (const std::string& crane : crane_bodies(s)) names.push_back(crane);
   if (kind == "winch") collect(s.drives, [](const DriveSpec& d) { return d.kind == DriveSpec::Kind::winch; });
   if (kind == "tagline") collect(s.taglines, any);
   if (kind == "mooring") collect(s.moorings, any);
@@ -192,6 +208,13 @@ Metrics compute_metrics(const Specification& specification, const Trajectory& tr
   const RunView view(specification, trajectory);
   MetricList list(view, metrics);
 
+  if (const std::vector<Failure> failures = failures_of(view);
+      metrics.status == RunStatus::completed && !failures.empty()) {
+    metrics.status = RunStatus::failed;
+    metrics.message = failure_text(failures);
+    metrics.failed_at = failures.front().time;
+  }
+  view.forget();
   list.add("duration", view.end() - view.start());
   list.add("event_timeouts",
            static_cast<double>(std::count_if(trajectory.phases.begin(), trajectory.phases.end(),

@@ -3,13 +3,20 @@
 //
 // Definitions that several metrics share:
 //   extremes   come from Trajectory::extremes, which see every step, wherever the metric is an extreme of one channel;
-//              extremes of a combination (total hook load, sway, tilt, set-down movement), all means, and the leads
-//              during load transfer and set-down come from the recorded samples.
+//              extremes of a combination (total hook load, sway, tilt, set-down movement), all means, and leads and
+//              slack during load transfer and set-down come from the recorded samples.
 //   static     "static" values are interpolated between the static poses at the two ends of a phase, by the progress of
 //              the drives that move in it (by time if none does). A pose in which the load still rests on a pickup
 //              or target contact is not one of a hanging load: the pose at the phase's other end is then used alone.
+//   static load  what a wire (or several together) holds without dynamics, the divisor of the amplification: while the
+//              load hangs at both ends of a phase its static tension of the moment; in a phase at whose start or end the
+//              load rests (lift-off, set-down) the larger of its static tensions at the two ends; in one at whose both
+//              ends it rests the larger of these and of the static tension in the nearest pose in which it hangs.
+//   hangs free from lift-off until the first contact with a target, and in every hanging phase.
+//   leads      off-lead in, side-lead out of the plane of the boom that holds the wire's upper end (sim/crane_parts.h);
+//              heel and trim are those of the vessel under it.
 //   sway       mean over the hoist wires of (offset_x, offset_y) minus its static value; horizontal, relative to the
-//              boom tips, in the crane's heading.
+//              boom tips, in the crane vessel's heading.
 //   lift-off   the first instant at or after the start of the first `transfer` phase (without one: of the first
 //              `hanging` phase) at which no pickup contact has a force; a re-hit is a pickup contact that starts later.
 #pragma once
@@ -27,8 +34,8 @@ struct MetricDefinition {
   std::string name;  // e.g. "daf_total"; "%" stands for an element's name, e.g. "daf.%"
   std::string unit;  // as reported: "m", "deg", "kN", "kN s", "m/s", "s", "1"
   std::string description;
-  std::string element;  // what "%" stands for: "phase", "wire", "hoist wire", "winch", "tagline", "mooring",
-                        // "clearance"; empty without "%"
+  std::string element;  // what "%" stands for: "phase", "wire", "hoist wire", "hoist wire or crane", "crane", "crane
+                        // vessel", "winch", "tagline", "mooring", "clearance"; empty without "%"
 };
 
 struct Metric {
@@ -37,12 +44,14 @@ struct Metric {
   double value = std::numeric_limits<double>::quiet_NaN();
   double time = std::numeric_limits<double>::quiet_NaN();  // s, when it was reached; NaN if it is not of one instant
   std::string phase;                                       // where it was reached; empty if over all
+  std::string scenario;                                    // of a plan in several: the one it is of
 };
 
 class Metrics {
  public:
   RunStatus status = RunStatus::not_run;
-  std::string message;  // why, if the run did not complete
+  std::string message;  // why, if the run did not complete or no lift would have
+  double failed_at = std::numeric_limits<double>::quiet_NaN();  // s, with RunStatus::failed: from then on it is no lift
   std::vector<Metric> items;
 
   const Metric* find(const std::string& name) const;

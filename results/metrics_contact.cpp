@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "results/load_path.h"
 #include "results/metric_list.h"
 #include "sim/spatial/constants.h"
 
@@ -15,20 +16,6 @@ namespace stillhook {
 namespace {
 
 using Stage = PhaseSpec::Stage;
-
-/// First instant from `from` on at which no pickup contact has a force; NaN if there is none in the run.
-double first_lift_off(const RunView& view, double from) {
-  double t = from;
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (const ContactEvent& event : view.run().contacts) {
-      if (event.role != ContactSpec::Role::pickup || event.start > t || event.end <= t) continue;
-      t = event.end;
-      moved = true;
-    }
-  }
-  return t < view.end() ? t : kNaN;
-}
 
 /// The mean distance of boom tips and lift points while the load waits, detrended, with its sample times.
 struct RelativeMotion {
@@ -64,13 +51,7 @@ RelativeMotion waiting_motion(const RunView& view) {
 }  // namespace
 
 void add_contacts(const RunView& view, MetricList& list) {
-  const std::vector<std::size_t> transfer = view.phases_of({Stage::transfer});
-  const std::vector<std::size_t> hanging = view.phases_of({Stage::hanging});
-  const std::vector<std::size_t>& lifting = transfer.empty() ? hanging : transfer;
-  const bool has_pickup = std::any_of(view.specification().contacts.begin(), view.specification().contacts.end(),
-                                      [](const ContactSpec& c) { return c.role == ContactSpec::Role::pickup; });
-  double lift_off = kNaN;
-  if (has_pickup && !lifting.empty()) lift_off = first_lift_off(view, view.run().phases[lifting.front()].start);
+  const double lift_off = lift_off_time(view);
   list.add("lift_off_time", {lift_off, lift_off});
 
   int rehits = 0;

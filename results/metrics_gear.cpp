@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/load_path.h"
 #include "results/metric_list.h"
+#include "sim/crane_parts.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -10,49 +12,18 @@ namespace {
 
 using Stage = PhaseSpec::Stage;
 
-struct Ratios {
-  Peak largest, smallest;
-};
-
-/// Extremes of (sum of tensions) / (sum of static tensions) over the hanging phases. For one wire the extremes of every
-/// step enter too; of a sum only the samples are known.
-Ratios tension_ratios(const RunView& view, const std::vector<std::string>& channels) {
-  Ratios ratios;
-  std::vector<std::span<const double>> series;
-  for (const std::string& name : channels) series.push_back(view.series(name));
-  for (std::size_t p : view.phases_of({Stage::hanging})) {
-    const auto static_tension = [&](double t) {
-      double sum = 0.0;
-      for (const std::string& name : channels) sum += view.static_at(p, t, name);
-      return sum;
-    };
-    const auto take = [&](double tension, double t) {
-      const double at_rest = static_tension(t);
-      if (!(at_rest > 0.0)) return;
-      ratios.largest.take_larger(tension / at_rest, t);
-      ratios.smallest.take_smaller(tension / at_rest, t);
-    };
-    if (channels.size() == 1) {
-      const Peak high = view.maximum(channels[0], {p}), low = view.minimum(channels[0], {p});
-      if (high.valid()) take(high.value, high.time);
-      if (low.valid()) take(low.value, low.time);
-    }
-    if (std::any_of(series.begin(), series.end(), [](const auto& s) { return s.empty(); })) continue;
-    const RunView::Range range = view.samples(p);
-    for (std::size_t i = range.first; i < range.last; ++i) {
-      double sum = 0.0;
-      for (const auto& values : series) sum += values[i];
-      take(sum, view.run().time[i]);
-    }
-  }
-  return ratios;
+/// The tension channels of some wires that the run has.
+std::vector<std::string> tensions_of(const RunView& view, const std::vector<std::string>& wires) {
+  std::vector<std::string> names;
+  for (const std::string& wire : wires)
+    if (view.channel(wire + ".tension") >= 0) names.push_back(wire + ".tension");
+  return names;
 }
 
-std::vector<std::string> hoist_tensions(const RunView& view) {
+std::vector<std::string> hoist_wires(const Specification& s) {
   std::vector<std::string> names;
-  for (const WireSpec& wire : view.specification().wires)
-    if (wire.role == WireSpec::Role::hoist && view.channel(wire.name + ".tension") >= 0)
-      names.push_back(wire.name + ".tension");
+  for (const WireSpec& wire : s.wires)
+    if (wire.role == WireSpec::Role::hoist) names.push_back(wire.name);
   return names;
 }
 
@@ -91,12 +62,18 @@ void add_lead_angles(const RunView& view, MetricList& list) {
   for (const auto& [metric, quantity] :
        {std::pair{"offlead_max", ".off_lead"}, std::pair{"sidelead_max", ".side_lead"}}) {
     Peak overall;
+    const std::vector<std::string> cranes = crane_bodies(view.specification());
+    std::vector<Peak> of_crane(cranes.size());
     for (const WireSpec& wire : view.specification().wires) {
       if (wire.role != WireSpec::Role::hoist) continue;
       const Peak peak = largest_lead(view, wire, quantity);
       list.add(std::string(metric) + ".%", wire.name, peak);
       overall.take_larger(peak.value, peak.time);
+      for (std::size_t i = 0; i < cranes.size(); ++i)
+        if (wire.from == cranes[i] || vessel_under(view.specification(), wire.from) == cranes[i])
+          of_crane[i].take_larger(peak.value, peak.time);
     }
+    for (std::size_t i = 0; i < cranes.size(); ++i) list.add(std::string(metric) + ".%", cranes[i], of_crane[i]);
     list.add(metric, overall);
   }
 }
@@ -111,23 +88,27 @@ void add_wires(const RunView& view, MetricList& list) {
     const Peak tension = view.maximum(channel, view.all_phases());
     list.add("tension_max.%", wire.name, tension);
     if (wire.breaking_load > 0.0) wire_use.take_larger(tension.value / wire.breaking_load, tension.time);
-    const Ratios ratios = tension_ratios(view, {channel});
-    list.add("daf.%", wire.name, ratios.largest);
+    const Peak amplification = largest_amplification(view, {channel}, view.all_phases());
+    list.add("daf.%", wire.name, amplification);
     if (wire.role != WireSpec::Role::hoist) continue;
-    list.add("slack_ratio_min.%", wire.name, ratios.smallest);
-    daf.take_larger(ratios.largest.value, ratios.largest.time);
-    slack.take_smaller(ratios.smallest.value, ratios.smallest.time);
+    const Peak share = smallest_share(view, channel);
+    list.add("slack_ratio_min.%", wire.name, share);
+    daf.take_larger(amplification.value, amplification.time);
+    slack.take_smaller(share.value, share.time);
   }
   list.add("daf_max", daf);
   if (daf.valid()) daf.value -= 1.0;
   list.add("daf_excess", daf);
   list.add("slack_ratio_min", slack);
   list.add("wire_utilisation_max", wire_use);
-  const std::vector<std::string> hoist = hoist_tensions(view);
-  if (!hoist.empty()) {
-    list.add("daf_total", tension_ratios(view, hoist).largest);
+  const Specification& s = view.specification();
+  if (const std::vector<std::string> hoist = tensions_of(view, hoist_wires(s)); !hoist.empty()) {
+    list.add("daf_total", largest_amplification(view, hoist, view.all_phases()));
     list.add("hook_load_max", largest_sum(view, hoist));
   }
+  for (const std::string& crane : crane_bodies(s))
+    if (const auto hoist = tensions_of(view, hoist_wires_of(s, crane)); !hoist.empty())
+      list.add("hook_load_max.%", crane, largest_sum(view, hoist));
   add_lead_angles(view, list);
 }
 

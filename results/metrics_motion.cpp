@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/load_path.h"
 #include "results/metric_list.h"
+#include "sim/crane_parts.h"
 #include "sim/spatial/constants.h"
 #include "sim/spatial/pose.h"
 
@@ -58,13 +60,6 @@ std::vector<Vector3> reference_offsets(const RunView& view, RunView::Range range
   return offsets;
 }
 
-double first_target_contact(const RunView& view) {
-  double first = std::numeric_limits<double>::infinity();
-  for (const ContactEvent& event : view.run().contacts)
-    if (event.role == ContactSpec::Role::target && event.start > view.start()) first = std::min(first, event.start);
-  return first;
-}
-
 /// Largest departure in z from the planned descent until the load lands: height of the reference point against its
 /// static height at the start of the phase minus the mean wire paid out since.
 Peak descent_departure(const RunView& view, std::size_t phase, const std::vector<Vector3>& offsets) {
@@ -83,7 +78,7 @@ Peak descent_departure(const RunView& view, std::size_t phase, const std::vector
   if (index >= view.run().static_poses[phase].bodies.size()) return peak;
   const double static_z =
       (view.run().static_poses[phase].bodies[index] * s.operation.load_reference - s.operation.target).z();
-  const double landing = first_target_contact(view);
+  const double landing = landing_time(view);
   const RunView::Range range = view.samples(phase);
   for (std::size_t i = range.first; i < range.last && view.run().time[i] <= landing; ++i) {
     double paid_out = 0.0;
@@ -182,19 +177,30 @@ void add_set_down_motion(const RunView& view, MetricList& list) {
 }
 
 void add_crane_motion(const RunView& view, MetricList& list) {
-  const std::string& crane = view.specification().operation.crane;
-  if (crane.empty()) return;
-  list.add("heel_max", view.largest_magnitude(crane + ".roll", view.all_phases()));
-  list.add("trim_max", view.largest_magnitude(crane + ".pitch", view.all_phases()));
-  Peak heel, trim;
   const std::vector<PhaseRecord>& phases = view.run().phases;
-  for (std::size_t i = 0; i < view.run().static_poses.size() && i <= phases.size(); ++i) {
-    const double t = i == 0 ? phases.front().start : phases[i - 1].end;
-    heel.take_larger(std::abs(view.static_value(i, crane + ".roll")), t);
-    trim.take_larger(std::abs(view.static_value(i, crane + ".pitch")), t);
+  Peak heel_overall, trim_overall, static_heel_overall, static_trim_overall;
+  for (const std::string& vessel : crane_vessels(view.specification())) {
+    const auto in_waves = [&](const char* metric, const std::string& channel, Peak& overall) {
+      const Peak peak = view.largest_magnitude(channel, view.all_phases());
+      list.add(std::string(metric) + ".%", vessel, peak);
+      overall.take_larger(peak.value, peak.time);
+    };
+    const auto at_rest = [&](const char* metric, const std::string& channel, Peak& overall) {
+      Peak peak;
+      for (std::size_t i = 0; i < view.run().static_poses.size() && i <= phases.size(); ++i)
+        peak.take_larger(std::abs(view.static_value(i, channel)), i == 0 ? phases.front().start : phases[i - 1].end);
+      list.add(std::string(metric) + ".%", vessel, peak);
+      overall.take_larger(peak.value, peak.time);
+    };
+    in_waves("heel_max", vessel + ".roll", heel_overall);
+    in_waves("trim_max", vessel + ".pitch", trim_overall);
+    at_rest("heel_static_max", vessel + ".roll", static_heel_overall);
+    at_rest("trim_static_max", vessel + ".pitch", static_trim_overall);
   }
-  list.add("heel_static_max", heel);
-  list.add("trim_static_max", trim);
+  list.add("heel_max", heel_overall);
+  list.add("trim_max", trim_overall);
+  list.add("heel_static_max", static_heel_overall);
+  list.add("trim_static_max", static_trim_overall);
 }
 
 }  // namespace stillhook

@@ -86,6 +86,7 @@ struct SearchSection {
   std::vector<LimitCheck> baseline_limits, plan_limits;  // same order, worst scenario of each
   std::vector<Point> history, random_history;
   std::vector<std::string> scenarios;  // one sentence each
+  std::string shown;                   // of several: the name of the one that the histories are of
   std::optional<SensitivityTable> sensitivities = {};
   std::optional<ParetoFront> pareto = {};
 };

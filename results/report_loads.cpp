@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "results/html.h"
+#include "results/load_path.h"
 #include "results/report_parts.h"
 #include "sim/spatial/constants.h"
 
@@ -34,7 +35,6 @@ struct PhaseLoad {
 
 PhaseLoad phase_load(const RunView& view, const std::vector<const WireSpec*>& wires, std::size_t p) {
   PhaseLoad out;
-  const PhaseRecord& phase = view.run().phases[p];
   for (const WireSpec* wire : wires) {
     out.static_start += view.static_value(p, wire->name + ".tension");
     out.static_end += view.static_value(p + 1, wire->name + ".tension");
@@ -46,18 +46,14 @@ PhaseLoad phase_load(const RunView& view, const std::vector<const WireSpec*>& wi
     tensions.push_back(view.series(channels.back()));
     if (tensions.back().empty()) return out;
   }
-  const bool hangs = phase.stage == PhaseSpec::Stage::hanging;
   const RunView::Range range = view.samples(p);
   for (std::size_t i = range.first; i < range.last; ++i) {
     const double t = view.run().time[i];
-    double sum = 0.0, at_rest = 0.0;
-    for (std::size_t w = 0; w < tensions.size(); ++w) {
-      sum += tensions[w][i];
-      if (hangs) at_rest += view.static_at(p, t, channels[w]);
-    }
+    double sum = 0.0;
+    for (const auto& tension : tensions) sum += tension[i];
     out.largest.take_larger(sum, t);
-    if (hangs) out.amplification.take_larger(sum / at_rest, t);
   }
+  out.amplification = largest_amplification(view, channels, {p});
   return out;
 }
 
@@ -102,7 +98,7 @@ std::string daf_table(const ReportData& data, double weight, double hook_load) {
   }
   const double simulated = data.metrics.value("daf_total");
   rows.push_back({"<b>simulated</b>", "<b>" + fixed_number(simulated, 3) + "</b>", tonnes(hook_load),
-                  "<b>" + tonnes(simulated * hook_load) + "</b>", "this run, hanging phases"});
+                  "<b>" + tonnes(simulated * hook_load) + "</b>", "this run, lift-off and set-down included"});
   return html_table({"dynamic amplification factor", "DAF", "SHL, t", "DHL = DAF × SHL, t", "source"}, rows);
 }
 

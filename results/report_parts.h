@@ -43,6 +43,9 @@ std::string clock_time(double seconds);
 /// The same as an element that the viewer turns into a way to jump there.
 std::string event_time(double seconds);
 
+/// A time of one scenario of a plan: a way to jump there if it is the one that the replay shows. report_tables.cpp
+std::string time_in(const ReportData& data, const std::string& scenario, double seconds);
+
 /// A table in a box that scrolls sideways when the page is narrow. Cells are HTML already; the first of a row is its
 /// heading. `numeric_from`: first column set flush right; -1 for none.
 std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,

@@ -8,6 +8,7 @@
 #include "results/clearance.h"
 #include "results/html.h"
 #include "results/report_parts.h"
+#include "sim/crane_parts.h"
 
 namespace stillhook {
 namespace {
@@ -204,13 +205,16 @@ void geometry_plots(const ReportData& data, Plots& plots) {
     clearance.lines.push_back({readable_name(series.name), std::move(series.time), std::move(series.distance)});
   }
   plots.add(std::move(clearance));
-  const std::string& crane = data.specification.operation.crane;
+  const std::vector<std::string> vessels = crane_vessels(data.specification);
   for (const auto& [quantity, title, metric] : {std::tuple{".roll", "Heel of the crane", "heel_max"},
                                                 {".pitch", "Trim of the crane (bow down positive)", "trim_max"}}) {
     Plot plot = plots.make(title, "angle, °");
     plot.height = 210.0;
-    plots.line(plot, crane + quantity, "in waves", kDegrees);
-    plots.static_line(plot, crane + quantity, "calm water", kDegrees);
+    for (const std::string& vessel : vessels) {
+      const std::string of = vessels.size() > 1 ? readable_name(vessel) + " " : "";
+      plots.line(plot, vessel + quantity, of + "in waves", kDegrees);
+      plots.static_line(plot, vessel + quantity, of + "calm water", kDegrees);
+    }
     plots.limit(plot, metric, 1.0, "°", true);
     plots.add(std::move(plot));
   }

@@ -8,6 +8,8 @@
 #include "results/html.h"
 #include "results/pose_drawing.h"
 #include "results/report_parts.h"
+#include "sim/crane_parts.h"
+#include "sim/drive_unit.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -19,13 +21,6 @@ double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 double value_of(const StaticPose& pose, const std::string& key) {
   const auto found = pose.values.find(key);
   return found == pose.values.end() ? kNaN : found->second;
-}
-
-/// Whether a joint drive turns (rad) rather than slides (m).
-bool turns(const Specification& s, const DriveSpec& drive) {
-  for (const JointSpec& joint : s.joints)
-    if (joint.drive == drive.name) return joint.type == JointSpec::Type::revolute;
-  return false;
 }
 
 std::string travel_text(const Specification& s, const DriveSpec& drive, double travel) {
@@ -40,13 +35,13 @@ std::string travel_text(const Specification& s, const DriveSpec& drive, double t
     case DriveSpec::Kind::joint:
       break;
   }
-  return turns(s, drive) ? "turn " + fixed_number(degrees(travel), 2) + "°" : "move " + fixed_number(travel, 2) + " m";
+  return drive_motion(s, drive) == DriveMotion::angle ? "turn " + fixed_number(degrees(travel), 2) + "°" : "move " + fixed_number(travel, 2) + " m";
 }
 
 std::string speed_text(const Specification& s, const DriveSpec& drive, double speed) {
   const double per_minute = 60.0 * std::abs(speed);
   if (drive.kind == DriveSpec::Kind::ballast) return fixed_number(100.0 * per_minute, 1) + " %/min";
-  if (drive.kind == DriveSpec::Kind::joint && turns(s, drive)) return fixed_number(degrees(per_minute), 2) + " °/min";
+  if (drive_motion(s, drive) == DriveMotion::angle) return fixed_number(degrees(per_minute), 2) + " °/min";
   return fixed_number(per_minute, 2) + " m/min";
 }
 
@@ -105,12 +100,13 @@ void add_row(Rows& rows, const std::string& label, const std::vector<StaticPose>
 
 void add_body_rows(Rows& rows, const ReportData& data, const std::vector<StaticPose>& poses) {
   const Specification& s = data.specification;
-  for (const std::string& name : {s.operation.load, s.operation.crane}) {
-    if (name.empty()) continue;
+  std::vector<std::string> names = crane_vessels(s);
+  if (!s.operation.load.empty()) names.insert(names.begin(), s.operation.load);
+  for (const std::string& name : names) {
     rows.push_back({escape_html(readable_name(name))});
     for (const char* axis : {"x", "y", "z"})
       add_row(rows, fmt::format("{}, m", axis), poses, 2, [&](auto& p) { return value_of(p, name + "." + axis); });
-    const bool crane = name == s.operation.crane;
+    const bool crane = name != s.operation.load;
     for (const auto& [quantity, label] :
          {std::pair{".roll", crane ? "heel" : "roll"}, {".pitch", crane ? "trim" : "pitch"}, {".yaw", "yaw"}})
       add_row(rows, fmt::format("{}, °", label), poses, 3,
@@ -131,8 +127,8 @@ std::string poses_table(const ReportData& data, const std::vector<StaticPose>& p
   rows.push_back({"drives, from the start"});
   for (std::size_t d = 0; d < s.drives.size(); ++d) {
     const DriveSpec& drive = s.drives[d];
-    const bool angle = drive.kind == DriveSpec::Kind::joint && turns(s, drive);
-    const bool share = drive.kind == DriveSpec::Kind::ballast;
+    const bool angle = drive_motion(s, drive) == DriveMotion::angle;
+    const bool share = drive_motion(s, drive) == DriveMotion::share;
     add_row(rows,
             escape_html(readable_name(drive.name)) + (angle   ? ", °"
                                                       : share ? ", %"

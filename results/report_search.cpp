@@ -92,7 +92,8 @@ std::string limits_table(const SearchSection& search) {
     const LimitCheck& before = search.baseline_limits[i];
     const LimitCheck& after = search.plan_limits[i];
     const std::string unit = show_metric(after.metric, after.unit, after.limit).unit;
-    rows.push_back({escape_html(after.metric) + (unit.empty() ? "" : ", " + unit),
+    rows.push_back({escape_html(after.metric) + (unit.empty() ? "" : ", " + unit) +
+                        (after.scenario.empty() ? "" : " <small>(" + escape_html(after.scenario) + ")</small>"),
                     (after.is_max ? "≤ " : "≥ ") + show_metric(after.metric, after.unit, after.limit).value,
                     verdict(before) + show_metric(before.metric, before.unit, before.value).value,
                     verdict(after) + show_metric(after.metric, after.unit, after.value).value,

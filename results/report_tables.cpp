@@ -19,7 +19,12 @@ std::string cell(const std::string& name, const std::string& unit, double value)
   return text;
 }
 
-std::string when(double time) { return std::isfinite(time) ? event_time(time) : "–"; }
+/// When, and in which scenario where there are several.
+std::string when(const ReportData& data, const std::string& scenario, double time) {
+  std::string text = std::isfinite(time) ? time_in(data, scenario, time) : "–";
+  if (!scenario.empty()) text += " <small>(" + escape_html(scenario) + ")</small>";
+  return text;
+}
 
 std::string phase_cell(const std::string& phase) { return phase.empty() ? "–" : escape_html(readable_name(phase)); }
 
@@ -60,6 +65,11 @@ std::string element_table(const ReportData& data, const char* title, const std::
 
 std::string event_time(double time) {
   return fmt::format("<span data-time=\"{:.3f}\">{}</span>", time, clock_time(time));
+}
+
+std::string time_in(const ReportData& data, const std::string& scenario, double seconds) {
+  const bool here = scenario.empty() || !data.search || data.search->shown == scenario;
+  return here ? event_time(seconds) : clock_time(seconds);
 }
 
 Shown show_metric(const std::string& name, const std::string& unit, double value) {
@@ -126,7 +136,7 @@ std::string limits_part(const ReportData& data) {
          (c.is_max ? "≤\u00a0" : "≥\u00a0") + cell(c.metric, c.unit, c.limit),
          show_metric(c.metric, c.unit, c.margin).value +
              (std::isfinite(share) ? fmt::format(" <small>({} %)</small>", fixed_number(100.0 * share, 0)) : ""),
-         verdict, when(c.time), phase_cell(c.phase), c.source.empty() ? "case" : escape_html(c.source)});
+         verdict, when(data, c.scenario, c.time), phase_cell(c.phase), c.source.empty() ? "case" : escape_html(c.source)});
   }
   return html_table({"criterion", "value", "limit", "margin", "verdict", "reached at", "phase", "source of the limit"},
                     rows, -1);
@@ -137,13 +147,14 @@ std::string metrics_part(const ReportData& data) {
   for (const Metric& m : data.metrics.items) {
     const MetricDefinition* d = metric_definition(m.name);
     if (!d || !d->element.empty()) continue;
-    rows.push_back({escape_html(m.name), cell(m.name, m.unit, m.value), when(m.time), phase_cell(m.phase),
+    rows.push_back({escape_html(m.name), cell(m.name, m.unit, m.value), when(data, m.scenario, m.time), phase_cell(m.phase),
                     escape_html(d->description)});
   }
   std::string out =
       "<h3>Over the operation</h3>" + html_table({"metric", "value", "reached at", "phase", "meaning"}, rows, -1);
   out += element_table(data, "Motion of the load by phase", {"phase"});
-  out += element_table(data, "Wires", {"wire", "hoist wire"});
+  out += element_table(data, "Wires", {"wire", "hoist wire", "hoist wire or crane"});
+  out += element_table(data, "Cranes", {"crane", "crane vessel"});
   out += element_table(data, "Winches", {"winch"});
   out += element_table(data, "Taglines", {"tagline"});
   out += element_table(data, "Mooring lines", {"mooring"});

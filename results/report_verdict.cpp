@@ -43,7 +43,8 @@ std::string governing_sentence(const ReportData& data) {
     return fmt::format("<p>Governing: {}. It has no value in this run, so it cannot be shown to be kept.</p>", name);
   std::string when;
   if (!governing->phase.empty()) when += " in " + escape_html(readable_name(governing->phase));
-  if (std::isfinite(governing->time)) when += " at " + event_time(governing->time);
+  if (!governing->scenario.empty()) when += " in scenario " + escape_html(governing->scenario);
+  if (std::isfinite(governing->time)) when += " at " + time_in(data, governing->scenario, governing->time);
   std::string share;
   if (governing->limit != 0.0 && std::isfinite(relative_margin(*governing)))
     share = fmt::format(", a margin of {} %", fixed_number(100.0 * relative_margin(*governing), 0));
@@ -132,7 +133,11 @@ std::string verdict_part(const ReportData& data) {
   const auto warned =
       std::count_if(data.limits.begin(), data.limits.end(), [](const LimitCheck& c) { return !c.hard && !c.pass; });
   std::string cls, headline, detail;
-  if (data.trajectory.status != RunStatus::completed) {
+  if (data.metrics.status == RunStatus::failed) {
+    cls = " fail";
+    headline = "Failed";
+    detail = "<p>" + escape_html(data.metrics.message) + ".</p>";
+  } else if (data.trajectory.status != RunStatus::completed) {
     cls = " fail";
     headline = "Not completed: " + readable_name(status_name(data.trajectory.status));
     detail = "<p>" + escape_html(data.trajectory.message) + "</p><p>What follows covers the part that ran.</p>";

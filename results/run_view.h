@@ -74,13 +74,14 @@ class RunView {
   double static_value(std::size_t pose, const std::string& name) const;
   /// Static value during a phase at time t (s) for a hanging load, see metrics.h; NaN if there is none.
   double static_at(std::size_t phase, double t, const std::string& name) const;
+  /// True if the load hangs in static pose `pose`: it rests on no pickup and no target.
+  bool hangs(std::size_t pose) const;
   /// Static value on the way from one pose to the next, resting or not; NaN if there is none.
   double planned_at(std::size_t phase, double t, const std::string& name) const;
   /// How far the drives of a phase have come at time t, 0 to 1.
   double progress(std::size_t phase, double t) const;
 
  private:
-  bool hangs(std::size_t pose) const;
   double sample_at(std::span<const double> values, double t) const;
 
   const Specification& specification_;

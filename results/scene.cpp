@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/crane_parts.h"
 #include "sim/hull/mesh_file.h"
 #include "sim/lifting/catenary.h"
 
@@ -119,8 +120,10 @@ SceneBody scene_body(const Specification& s, const BodySpec& body) {
   out.name = body.name;
   out.mesh = hull_mesh(body.hull);
   out.floats = !out.mesh.triangles.empty();
+  const std::vector<std::string> cranes = crane_vessels(s);
+  const bool is_crane = std::find(cranes.begin(), cranes.end(), body.name) != cranes.end();
   out.kind = body.name == s.operation.load    ? SceneBody::Kind::load
-             : body.name == s.operation.crane ? SceneBody::Kind::crane
+             : is_crane                       ? SceneBody::Kind::crane
              : out.floats                     ? SceneBody::Kind::vessel
                                               : SceneBody::Kind::member;
   if (body.hull.shape == HullSpec::Shape::mesh && out.floats && out.kind == SceneBody::Kind::load)

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <set>
 
+#include "results/load_path.h"
 #include "results/run_view.h"
 #include "sim/spatial/constants.h"
 
@@ -126,18 +126,23 @@ std::optional<double> smooth_sway(const RunView& view, const std::string& name, 
   return std::sqrt(std::max(0.0, soft_peak(view, phases, options.sharpness, square)));
 }
 
-/// Soft peak of (sum of tensions)/(sum of static tensions).
+/// Soft peak of (sum of tensions) / (static load) over the hanging phases. Where a wire takes up or lets go of the load
+/// the ratio runs from 0 to 1, which is no scale for a peak a few parts in a hundred above 1: what is larger there counts
+/// as it is.
 double soft_ratio(const RunView& view, const std::vector<std::string>& wires, const SmoothOptions& options) {
   const std::vector<std::size_t> phases = view.phases_of({Stage::hanging});
+  std::vector<std::string> channels;
+  for (const std::string& wire : wires) channels.push_back(wire + ".tension");
   const Tables ratio = tables(view, phases, [&](std::size_t p, std::size_t i) {
-    double tension = 0.0, at_rest = 0.0;
-    for (const std::string& wire : wires) {
-      tension += view.series(wire + ".tension")[i];
-      at_rest += view.static_at(p, view.run().time[i], wire + ".tension");
-    }
-    return tension / at_rest;
+    double tension = 0.0;
+    for (const std::string& channel : channels) tension += view.series(channel)[i];
+    return tension / static_load(view, p, view.run().time[i], channels);
   });
-  return soft_peak(view, phases, options.sharpness, [&](std::size_t p, std::size_t i) { return ratio[p][i]; });
+  const double soft =
+      soft_peak(view, phases, options.sharpness, [&](std::size_t p, std::size_t i) { return ratio[p][i]; });
+  const Peak elsewhere = largest_amplification(
+      view, channels, view.phases_of({Stage::on_barge, Stage::transfer, Stage::set_down, Stage::landed}));
+  return elsewhere.value > soft ? elsewhere.value : soft;
 }
 
 std::optional<double> smooth_daf(const RunView& view, const std::string& name, const SmoothOptions& options) {
@@ -217,40 +222,6 @@ std::optional<double> smooth_metric(const Specification& specification, const Tr
   if (name == "rehits") return smooth_rehits(view, options);
   if (name == "tagline_saturated") return smooth_saturation(view, options);
   return std::nullopt;
-}
-
-std::vector<std::string> channels_of_metric(const Specification& s, const std::string& name) {
-  std::set<std::string> all;
-  const auto of = [&](const std::string& entry, std::initializer_list<const char*> quantities) {
-    for (const char* q : quantities) all.insert(entry + q);
-  };
-  const auto starts = [&](const char* with) { return name.starts_with(with); };
-  const bool pose = starts("range_") || starts("mean_") || starts("setdown_") || starts("load_");
-  const bool crane = starts("heel") || starts("trim");
-  for (const WireSpec& w : s.wires) {
-    const bool hoist = w.role == WireSpec::Role::hoist;
-    if (starts("sway") && hoist) of(w.name, {".offset_x", ".offset_y"});
-    if ((starts("offlead") || starts("sidelead")) && hoist) of(w.name, {".tension", ".off_lead", ".side_lead"});
-    if (((starts("daf") || starts("slack") || starts("hook")) && hoist) || starts("daf.") || starts("tension") ||
-        starts("winch") || starts("wire"))
-      of(w.name, {".tension"});
-    if (starts("lift_off") && hoist) of(w.name, {".length"});
-  }
-  for (const TaglineSpec& t : s.taglines)
-    if (starts("tagline")) of(t.name, {".tension", ".command", ".line_speed", ".saturated"});
-  for (const MooringSpec& m : s.moorings)
-    if (starts("mooring")) of(m.name, {".tension"});
-  for (const ContactSpec& c : s.contacts)
-    if (name == "rehits" && c.role == ContactSpec::Role::pickup) of(c.name, {".gap"});
-  const auto body = [&](const std::string& b) { of(b, {".x", ".y", ".z", ".roll", ".pitch", ".yaw"}); };
-  if (pose && !s.operation.load.empty()) body(s.operation.load);
-  if (crane && !s.operation.crane.empty()) body(s.operation.crane);
-  for (const ClearanceSpec& c : s.clearances)
-    if (name == "clearance_min." + c.name)
-      for (const std::string& b : {c.a.body, c.b.body})
-        if (b != "world") body(b);
-  for (const DriveSpec& d : s.drives) of(d.name, {".position", ".rate"});
-  return {all.begin(), all.end()};
 }
 
 }  // namespace stillhook

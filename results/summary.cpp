@@ -16,6 +16,8 @@ Json metrics_json(const Metrics& metrics) {
   for (const Metric& m : metrics.items)
     all[m.name] = {
         {"value", json_number(m.value)}, {"unit", m.unit}, {"time", json_number(m.time)}, {"phase", m.phase}};
+  for (const Metric& m : metrics.items)
+    if (!m.scenario.empty()) all[m.name]["scenario"] = m.scenario;
   return all;
 }
 
@@ -33,6 +35,8 @@ Json limits_json(const std::vector<LimitCheck>& checks) {
                    {"hard", c.hard},
                    {"pass", c.pass},
                    {"source", c.source}});
+  for (std::size_t i = 0; i < checks.size(); ++i)
+    if (!checks[i].scenario.empty()) all[i]["scenario"] = checks[i].scenario;
   return all;
 }
 
@@ -104,6 +108,8 @@ std::string status_name(RunStatus status) {
       return "interrupted";
     case RunStatus::diverged:
       return "diverged";
+    case RunStatus::failed:
+      return "failed";
     case RunStatus::not_run:
       break;
   }
@@ -115,8 +121,8 @@ Summary summarise(const Specification& specification, const Trajectory& trajecto
   Summary summary;
   summary.case_name = specification.name;
   summary.sea = specification.sea.active;
-  summary.status = trajectory.status;
-  summary.message = trajectory.message;
+  summary.status = metrics.status;  // the trajectory knows whether it ran to its end, the metrics whether a lift would
+  summary.message = metrics.message;
   if (!trajectory.phases.empty()) summary.simulated = trajectory.phases.back().end - trajectory.phases.front().start;
   summary.wall = trajectory.wall;
   summary.metrics = metrics;

@@ -94,7 +94,7 @@ struct Summary {
   std::vector<std::string> warnings;       // what must be known before the numbers are used, one sentence each
 };
 
-/// "completed", "interrupted", "diverged", "not_run".
+/// "completed", "interrupted", "diverged", "failed", "not_run".
 std::string status_name(RunStatus status);
 
 /// Status, times, metrics and limits of one run.

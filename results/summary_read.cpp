@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 RunStatus status_of(const std::string& name) {
-  for (const RunStatus status : {RunStatus::completed, RunStatus::interrupted, RunStatus::diverged})
+  for (const RunStatus status : {RunStatus::completed, RunStatus::interrupted, RunStatus::diverged, RunStatus::failed})
     if (status_name(status) == name) return status;
   return RunStatus::not_run;
 }
@@ -21,7 +21,7 @@ Metrics metrics_of(const Json& document) {
   Metrics metrics;
   for (const auto& [name, m] : document.at("metrics").items())
     metrics.items.push_back({name, m.at("unit").get<std::string>(), number_of(m.at("value")), number_of(m.at("time")),
-                             m.at("phase").get<std::string>()});
+                             m.at("phase").get<std::string>(), m.value("scenario", std::string())});
   return metrics;
 }
 
@@ -40,6 +40,7 @@ std::vector<LimitCheck> limits_of(const Json& document) {
     check.time = number_of(l.at("time"));
     check.hard = l.at("hard").get<bool>();
     check.pass = l.at("pass").get<bool>();
+    check.scenario = l.value("scenario", std::string());
     limits.push_back(check);
   }
   return limits;
@@ -59,6 +60,7 @@ Summary summary_of(const Json& document) {
   summary.wall = number_of(document.at("wall_s"));
   summary.metrics = metrics_of(document);
   summary.metrics.status = summary.status;
+  summary.metrics.message = summary.message;
   summary.limits = limits_of(document);
   return summary;
 }

@@ -1,5 +1,6 @@
 #include "sim/element_builder.h"
 
+#include "sim/crane_parts.h"
 #include "sim/lifting/ballast.h"
 #include "sim/lifting/contact.h"
 #include "sim/lifting/mooring.h"
@@ -27,7 +28,12 @@ std::unique_ptr<const ForceElement> ElementBuilder::wire(const WireSpec& w, doub
   o.damping = w.damping > 0.0 ? w.damping
                               : wire_damping(w.damping_ratio, w.damping_mass, w.axial_stiffness, o.unstretched_length);
   o.drive = drive_or_none(w.winch);
-  if (!spec().operation.crane.empty()) o.crane = model_.body_index(spec().operation.crane);
+  if (const std::vector<std::string> vessels = crane_vessels(spec()); !vessels.empty())
+    o.crane = model_.body_index(vessels.front());
+  if (w.role == WireSpec::Role::hoist && model_.body_index(w.from) != kWorld) {
+    o.boom = model_.body_index(w.from);
+    o.boom_athwart = boom_athwart(spec(), w.from);
+  }
   return std::make_unique<const Wire>(o);
 }
 

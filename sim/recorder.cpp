@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/drive_unit.h"
+
 namespace stillhook {
 
 namespace {
@@ -28,11 +30,10 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
   element_offset_.push_back(static_cast<int>(channels_.size()));
   drive_offset_ = static_cast<int>(channels_.size());
   for (const DriveSpec& d : model.specification().drives) {
-    const bool winch = d.kind == DriveSpec::Kind::winch;
-    channels_.push_back({d.name + ".position", winch || d.kind == DriveSpec::Kind::tow ? "m" : "1",
-                         winch ? "length hauled in" : "position of the drive"});
-    channels_.push_back(
-        {d.name + ".rate", winch || d.kind == DriveSpec::Kind::tow ? "m/s" : "1/s", "rate of the drive"});
+    const DriveMotion motion = drive_motion(model.specification(), d);
+    channels_.push_back({d.name + ".position", position_unit(motion),
+                         d.kind == DriveSpec::Kind::winch ? "length hauled in" : "position of the drive"});
+    channels_.push_back({d.name + ".rate", rate_unit(motion), "rate of the drive"});
   }
   joint_offset_ = static_cast<int>(channels_.size());
   for (const Joint& j : system.joints) {

@@ -47,7 +47,8 @@ struct StaticPose {
   std::map<std::string, double> values;     // every element and joint channel at rest
 };
 
-enum class RunStatus { not_run, completed, interrupted, diverged };
+/// failed: it ran to its end, but no lift would have: a wire parted, a vessel capsized (results/failures.h says which).
+enum class RunStatus { not_run, completed, interrupted, diverged, failed };
 
 struct Trajectory {
   RunStatus status = RunStatus::not_run;
@@ -80,8 +81,9 @@ struct Trajectory {
 //   <body>.x .y .z            m, Bo in W            <body>.roll .pitch .yaw   rad
 //   <body>.vx .vy .vz         m/s, Bo in W          <body>.wx .wy .wz         rad/s in B
 //   <wire>.tension N, .length m (stretched), .unstretched m, .rate m/s (of the unstretched length, + paying out),
-//          .offset_x .offset_y m (lower end relative to upper end, fore-aft and athwart in the crane's heading),
-//          .off_lead .side_lead rad (the angles of these offsets from the vertical)
+//          .offset_x .offset_y m (lower end relative to upper end, fore-aft and athwart in the crane vessel's heading),
+//          .off_lead .side_lead rad (angles from the vertical in and out of the boom's plane; other wires than hoist
+//          wires: in and out of the vessel's)
 //   <tagline>.tension N, .command N, .line_speed m/s (+ paying out), .saturated 0/1, .angle rad, .angle_rate rad/s
 //   <mooring>.tension N, .horizontal_tension N
 //   <contact>.force N (normal), .penetration m (deepest), .gap m (smallest, negative = penetrated), .approach_speed m/s,

@@ -188,24 +188,24 @@ class HangingPose {
     return decrement(model, run, axis, mode.period, options.swings);
   }
 
-  /// Of the mean lead of the hoist wires, from the release on.
+  /// Of the mean offset of the hoist wires in the crane vessel's heading, from the release on.
   static double decrement(const Model& model, const Trajectory& run, int axis, double period, int swings) {
-    std::vector<double> lead(run.time.size(), 0.0);
+    std::vector<double> offset(run.time.size(), 0.0);
     int wires = 0;
     for (const WireSpec& w : model.specification().wires) {
       if (w.role != WireSpec::Role::hoist) continue;
-      const int c = run.find(w.name + (axis == 0 ? ".off_lead" : ".side_lead"));
-      for (std::size_t i = 0; i < lead.size(); ++i) lead[i] += run.values[static_cast<std::size_t>(c)][i];
+      const int c = run.find(w.name + (axis == 0 ? ".offset_x" : ".offset_y"));
+      for (std::size_t i = 0; i < offset.size(); ++i) offset[i] += run.values[static_cast<std::size_t>(c)][i];
       ++wires;
     }
     if (wires == 0) return kNaN;
     // The range over each period, which neither a shifted middle nor the ripple of the wires disturbs.
     const auto range = [&](int k) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (std::size_t i = 0; i < lead.size(); ++i) {
+      for (std::size_t i = 0; i < offset.size(); ++i) {
         if (run.time[i] < k * period || run.time[i] >= (k + 1) * period) continue;
-        low = std::min(low, lead[i]);
-        high = std::max(high, lead[i]);
+        low = std::min(low, offset[i]);
+        high = std::max(high, offset[i]);
       }
       return high - low;
     };

@@ -42,7 +42,7 @@ int run_check(const CommonOptions& options) {
   const std::atomic<bool>& stop = catch_interrupts();
   const Case c = load_case(options);
   const PreparedRun prepared = prepare_run(c, c.specification, panel_method_progress(options.quiet, &stop));
-  print_warnings(prepared.model.warnings());
+  print_warnings(prepared.warnings);
   std::vector<ReportTable> tables = static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation));
   tables.push_back(phase_table(prepared.model, prepared.operation));
   if (options.json) {
@@ -51,7 +51,7 @@ int run_check(const CommonOptions& options) {
                                        {"verb", "check"},
                                        {"program_version", kVersion},
                                        {"duration_s", prepared.operation.planned_duration()},
-                                       {"warnings", prepared.model.warnings()},
+                                       {"warnings", prepared.warnings},
                                        {"tables", nlohmann::ordered_json::array()}};
     for (const ReportTable& table : tables) document["tables"].push_back(table_json(table));
     fmt::print("{}\n", document.dump(2));

@@ -112,22 +112,27 @@ class Conclusion {
     summary_.status = RunStatus::interrupted;
     summary_.message = result_.search.evaluations == 0 ? "interrupted before the first evaluation was complete"
                                                        : "interrupted; --resume goes on from here";
-    summary_.limits = worst_limits(evaluator_, result_.search.best);
+    summary_.limits = deciding_limits(evaluator_, result_.search.best);
   }
 
   void run_best() {
     const Eigen::VectorXd& x = result_.search.best_x;
-    const std::vector<RunResult> runs = run_scenarios(evaluator_, x);
+    std::vector<RunResult> runs = run_scenarios(evaluator_, x);
     const std::size_t governing = governing_scenario(evaluator_, result_.search.best);
     const Case planned = evaluator_.case_at(x);
-    const RunResult& run = runs[governing];
-    summary_ = summary_of(run, planned, "plan");
     std::vector<std::vector<LimitCheck>> limits;
+    std::vector<Metrics> metrics;
+    std::vector<std::string> warnings;
     for (const RunResult& r : runs) {
       limits.push_back(r.limits);
-      add_new(summary_.warnings, r.warnings);
+      metrics.push_back(r.metrics);
+      add_new(warnings, r.warnings);
     }
-    summary_.limits = worst_limits(limits);
+    RunResult run = std::move(runs[governing]);
+    run.limits = deciding_limits(evaluator_, limits);
+    run.metrics = deciding_metrics(evaluator_, metrics, run.limits, governing);
+    run.warnings = warnings;
+    summary_ = summary_of(run, planned, "plan");
     write_history(folder_, run, planned, "plan");
     const Judgement judgement = judged_plan(x);
     std::filesystem::remove(folder_.judgement());  // of an earlier plan, before --resume
@@ -211,7 +216,7 @@ int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
   for (std::size_t i = 0; i < evaluator.scenarios().size(); ++i)
     add_new(warnings, prepare_run(c, specification_at(evaluator, evaluator.baseline(), i),
                                   panel_method_progress(options.quiet, &stop))
-                          .model.warnings());
+                          .warnings);
   print_warnings(warnings);
 
   const RunFolder folder(folder_path(options, c, "plan"), arguments.resume ? RunFolder::Mode::resume

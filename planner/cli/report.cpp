@@ -29,8 +29,18 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
   if (!result.has_plan()) throw UsageError(folder.path() + ": its search has found no plan to report");
   const std::size_t governing = governing_scenario(evaluator, result.search.best);
   const Case planned = evaluator.case_at(result.search.best_x);
-  const RunResult run =
+  RunResult run =
       judged(specification_at(evaluator, result.search.best_x, governing), open_archive(folder.history()), c.limits);
+  // The folder holds the history of one scenario; what was decided over all of them is in its summary.
+  if (std::filesystem::exists(folder.summary())) {
+    const Summary summary = read_summary(folder.summary());
+    run.metrics = summary.metrics;
+    run.limits = summary.limits;
+    run.warnings = summary.warnings;
+  } else {
+    run.metrics = deciding_metrics(evaluator, result.search.best);
+    run.limits = deciding_limits(evaluator, result.search.best);
+  }
   SearchSection search = search_section(evaluator, result, SearchSection::kNone);
   if (std::filesystem::exists(folder.front_store())) {
     const Evaluator of_front = front_evaluator(evaluator, result.baseline, nullptr);

@@ -39,7 +39,7 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                         poses,
                         std::move(all),
                         search,
-                        prepared.model.warnings(),
+                        run.warnings.empty() ? prepared.warnings : run.warnings,
                         std::move(basis)};
   write_or_refuse([&] { write_report(data, folder.report()); });
 }

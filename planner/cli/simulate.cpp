@@ -25,9 +25,11 @@ Case load_with_sea_seed(const CommonOptions& options) {
 }
 
 int exit_code(const RunResult& run) {
-  switch (run.trajectory.status) {
+  switch (run.metrics.status) {
     case RunStatus::completed:
       return run.passed() ? kDone : kLimitViolated;
+    case RunStatus::failed:
+      return kLimitViolated;
     case RunStatus::interrupted:
       return kInterrupted;
     case RunStatus::diverged:
@@ -52,7 +54,7 @@ int run_simulate(const CommonOptions& options) {
   const Case c = load_with_sea_seed(options);
   const std::string statement = statement_of(options.input);
   const PreparedRun prepared = prepare_run(c, c.specification, panel_method_progress(options.quiet, &stop));
-  print_warnings(prepared.model.warnings());
+  print_warnings(prepared.warnings);
   const RunFolder folder(folder_path(options, c, "simulate"),
                          options.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh);
   write_or_refuse([&] { write_file(folder.case_file(), case_text(c, statement)); });
@@ -72,6 +74,7 @@ int run_simulate(const CommonOptions& options) {
     fmt::print("{}\n", summary_json(summary));
   else
     print_run(summary, folder);
+  if (run.metrics.status == RunStatus::failed) spdlog::error("failed: {}", run.metrics.message);
   if (run.trajectory.status == RunStatus::diverged) spdlog::error("diverged: {}", run.trajectory.message);
   if (run.trajectory.status == RunStatus::interrupted) spdlog::warn("interrupted: the folder holds the part that ran");
   return exit_code(run);

@@ -46,13 +46,23 @@ std::string variables_text(const SearchSection& s) {
 }
 
 std::string limits_comparison_text(const SearchSection& s) {
-  TextTable table({"limit", "unit", "bound", "baseline", "", "plan", ""});
+  const bool several = s.scenarios.size() > 1;
+  TextTable table(several ? std::vector<std::string>{"limit", "unit", "bound", "baseline", "", "plan", "", "decided in"}
+                          : std::vector<std::string>{"limit", "unit", "bound", "baseline", "", "plan", ""});
   for (std::size_t i = 0; i < s.plan_limits.size() && i < s.baseline_limits.size(); ++i) {
     const LimitCheck &before = s.baseline_limits[i], &after = s.plan_limits[i];
-    table.add({after.metric, after.unit, fmt::format("{} {:g}", after.is_max ? "<=" : ">=", after.limit),
-               short_number(before.value), verdict(before), short_number(after.value), verdict(after)});
+    std::vector<std::string> row = {after.metric,
+                                    after.unit,
+                                    fmt::format("{} {:g}", after.is_max ? "<=" : ">=", after.limit),
+                                    short_number(before.value),
+                                    verdict(before),
+                                    short_number(after.value),
+                                    verdict(after)};
+    if (several) row.push_back(after.scenario);
+    table.add(row);
   }
-  return table.empty() ? "" : "Limits, worst scenario of each\n" + table.text();
+  if (table.empty()) return "";
+  return (several ? "Limits, each in the scenario that decides whether it is kept\n" : "Limits\n") + table.text();
 }
 
 }  // namespace
@@ -83,6 +93,7 @@ std::string limits_text(const std::vector<LimitCheck>& limits) {
 }
 
 std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& limits) {
+  if (metrics.status == RunStatus::failed) return coloured(Colour::bad, "FAILED") + ": " + metrics.message;
   if (limits.empty()) return "No limits to keep.";
   const LimitCheck* governing = governing_check(limits);
   const std::string unit = governing->unit == "1" ? "" : " " + governing->unit;

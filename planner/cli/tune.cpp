@@ -63,6 +63,7 @@ int run_tune(const CommonOptions& options, const TuneArguments& arguments) {
     spdlog::warn("interrupted; the best gains so far are kept");
     return kInterrupted;
   }
+  if (summary.status == RunStatus::failed) return kLimitViolated;
   if (!result.baseline.usable && !result.tuned.usable) return kNumericalFailure;
   return result.tuned.violation() > 0.0 ? kLimitViolated : kDone;
 }

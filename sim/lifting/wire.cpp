@@ -87,8 +87,20 @@ std::vector<Channel> Wire::channels() const {
           {name() + ".rate", "m/s", "rate of the unstretched length, positive paying out"},
           {name() + ".offset_x", "m", "lower end forward of the upper end, in the crane's heading"},
           {name() + ".offset_y", "m", "lower end to port of the upper end, in the crane's heading"},
-          {name() + ".off_lead", "rad", "fore-aft angle from the vertical"},
-          {name() + ".side_lead", "rad", "athwart angle from the vertical"}};
+          {name() + ".off_lead", "rad", "angle from the vertical in the boom's plane, positive outwards"},
+          {name() + ".side_lead", "rad", "angle from the vertical out of the boom's plane, positive to port"}};
+}
+
+/// Columns: along the boom in plan, to port of it, up. R_WH is the heading that the offsets are measured in.
+Matrix3 Wire::lead_axes(const Instant& now, const Matrix3& R_WH) const {
+  if (options_.boom == kWorld) return R_WH;
+  Vector3 ahead = (now.body[options_.boom].R_WB * options_.boom_athwart).cross(Vector3::UnitZ());
+  const double length = ahead.norm();
+  if (length < 1e-6) return R_WH;  // a boom that lies on its side has no heading
+  ahead /= length;
+  Matrix3 R_WL;
+  R_WL << ahead, Vector3::UnitZ().cross(ahead), Vector3::UnitZ();
+  return R_WL;
 }
 
 void Wire::measure(const Instant& now, Memory, std::span<double> out) const {
@@ -96,15 +108,16 @@ void Wire::measure(const Instant& now, Memory, std::span<double> out) const {
   const Unstretched L = unstretched(now);
   const Matrix3 R_WH =
       options_.crane == kWorld ? Matrix3(Matrix3::Identity()) : heading_rotation(now.body[options_.crane].R_WB);
-  const Vector3 offset_H = R_WH.transpose() * (-line.length * line.e);  // lower end from upper end
+  const Vector3 offset_W = -line.length * line.e;  // lower end from upper end
+  const Vector3 offset_H = R_WH.transpose() * offset_W, offset_L = lead_axes(now, R_WH).transpose() * offset_W;
   out[0] = wire_tension(line.length, line.rate, L.length, L.rate, options_);
   out[1] = line.length;
   out[2] = L.length;
   out[3] = L.rate;
   out[4] = offset_H.x();
   out[5] = offset_H.y();
-  out[6] = std::atan2(offset_H.x(), -offset_H.z());
-  out[7] = std::atan2(offset_H.y(), -offset_H.z());
+  out[6] = std::atan2(offset_L.x(), -offset_L.z());
+  out[7] = std::atan2(offset_L.y(), -offset_L.z());
 }
 
 }  // namespace stillhook

@@ -24,7 +24,9 @@ struct WireOptions {
   double damping = 0.0;             // N s/m, >= 0
   double damping_strain = 1e-4;     // 1, strain over which the damping grows to its full value, > 0
   int drive = -1;                   // index of the winch, m hauled in; -1 = fixed length
-  int crane = kWorld;               // body whose heading gives fore-aft and athwart for off-lead and side-lead
+  int crane = kWorld;               // body whose heading gives fore-aft and athwart for the offsets
+  int boom = kWorld;                // body in and out of whose plane the leads are; kWorld = as the offsets
+  Vector3 boom_athwart = Vector3::UnitY();  // normal of that plane, to port, in the boom's axes
 
   bool operator==(const WireOptions&) const = default;
 };
@@ -64,6 +66,7 @@ class Wire final : public ForceElement {
     double length, rate;  // m, m/s
   };
   Unstretched unstretched(const Instant& now) const;
+  Matrix3 lead_axes(const Instant& now, const Matrix3& R_WH) const;
 
   WireOptions options_;
 };

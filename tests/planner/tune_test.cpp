@@ -27,6 +27,24 @@ TEST_CASE("tune lowers the objective and leaves a case that simulate takes", "[c
   CHECK(run(folder, {"simulate", folder / "tuned/tuned.toml", "--quiet"}).code == 0);
 }
 
+TEST_CASE("tune: the verdict is that of its limits, and the map shows objectives", "[cli][tune]") {
+  const Folder folder;
+  const Result r = run(folder, {"tune", kCase, "--out", "t", "--evaluations", "4", "--map", "3", "--json", "--quiet"});
+  INFO(r.err);
+  REQUIRE(r.code == 0);
+  const auto summary = nlohmann::json::parse(r.out);
+  for (const auto& limit : summary["limits"]) CHECK(limit["pass"].get<bool>());
+  CHECK(summary["within_limits"].get<bool>());
+  CHECK(summary["metrics"].size() > 10);
+  const std::string page = content(folder / "t/report.html");
+  CHECK_THAT(page, Contains("Objective over the gains") && !Contains("best inf") && !Contains("fill=\"#ddd\""));
+  // A limit that no gain keeps: the verdict says so, and the exit code.
+  const Result broken = run(folder, {"tune", kCase, "--out", "b", "--evaluations", "3", "--json", "--quiet", "--set",
+                                     "limits.offlead_max.max=0.01"});
+  CHECK(broken.code == 3);
+  CHECK_FALSE(nlohmann::json::parse(broken.out)["within_limits"].get<bool>());
+}
+
 TEST_CASE("tune without a tagline is refused", "[cli][tune][bad_input]") {
   const Folder folder;
   const Result r = run(folder, {"tune", kCase, "--set", "taglines.tagline.active=false"});

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "problems/case.h"
+#include "sim/recorder.h"
 #include "tests/tuning/measured_file.h"
 #include "tuning/measured_table.h"
 #include "tuning/measured_unit.h"
@@ -57,6 +58,34 @@ TEST_CASE("a record comes out in SI, on its own clock, with its sign", "[record]
   CHECK(r.interval == Approx(0.25));  // rows as they are: they are not denser than the interval wanted
   for (const std::size_t i : {0u, 50u, 120u})
     CHECK(r.channels[0].value[i] == Approx(-(roll_at(10.0 + 0.25 * static_cast<double>(i)) - 1.0) * kDegree).margin(1e-12));
+}
+
+TEST_CASE("the position of a joint's drive can be measured in degrees", "[record][unit]") {
+  Specification s;
+  s.sea.active = "calm";
+  s.sea.states = {SeaStateSpec{}};
+  s.sea.states[0].name = "calm";
+  s.solver.static_start = false;
+  BodySpec boom;
+  boom.name = "boom";
+  boom.mass = 1e5;
+  boom.inertia = 1e6 * Matrix3::Identity();
+  s.bodies = {boom};
+  JointSpec ring;
+  ring.name = "ring";
+  ring.parent = "world";
+  ring.child = "boom";
+  ring.stiffness = 1e9;
+  ring.drive = "slew";
+  s.joints = {ring};
+  s.drives = {{"slew", DriveSpec::Kind::joint, 0.0, 0.0}};
+  const Model model = build_model(s);
+  const TemporaryFolder folder;
+  FitRecordSpec spec = roll_in_degrees(folder.write("a.csv", csv_of("roll", 40.0, 0.25, roll_at)));
+  spec.columns[0].channel = "slew.position";
+  const MeasuredRecord r = read_record(spec, ChannelBoard(model).channels(), 0.2);
+  CHECK(r.channels[0].unit == "rad");
+  CHECK(r.channels[0].value[0] == Approx(5.0 * kDegree));
 }
 
 TEST_CASE("model scale is Froude's", "[record]") {

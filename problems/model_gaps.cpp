@@ -1,0 +1,110 @@
+#include "problems/model_gaps.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/crane_parts.h"
+#include "sim/hull/hydrostatics.h"
+#include "sim/hull/mesh.h"
+#include "sim/modes.h"
+#include "sim/spatial/constants.h"
+
+namespace stillhook {
+namespace {
+
+/// s: lines of a working mooring give periods of one to two minutes; what is slower than this no line holds.
+constexpr double kHeld = 200.0;
+
+void find_shallow_water(const Specification& s, std::vector<std::string>& gaps) {
+  for (const SeaStateSpec& sea : s.sea.states) {
+    if (sea.name != s.sea.active || sea.type == SeaStateSpec::Type::calm || !(s.sea.depth > 0.0)) continue;
+    const bool regular = sea.type == SeaStateSpec::Type::regular;
+    const double omega = regular ? sea.frequency : kTwoPi / sea.peak_period;
+    const double length = kTwoPi * s.sea.gravity / (omega * omega);  // deep water: w^2 = g k
+    if (!(s.sea.depth < 0.5 * length)) continue;
+    gaps.push_back(fmt::format("the waves feel the bottom: those of {:.1f} s are {:.0f} m long, the water is {:.1f} m "
+                               "deep, less than half of that; they are calculated as waves of deep water, and hulls "
+                               "as in deep water",
+                               kTwoPi / omega, length, s.sea.depth));
+  }
+}
+
+/// Lowest and highest point of a body's hull in a pose, z in W; of a body without hull its contact points, or else its
+/// origin and centre of gravity.
+std::pair<double, double> heights(const Specification& s, const BodySpec& body, const Pose& X_WB) {
+  std::vector<Vector3> points;
+  if (body.hull.shape != HullSpec::Shape::none) {
+    const MeshProperties box = properties_of(build_hull_mesh(body.hull));
+    for (const double x : {box.low.x(), box.high.x()})
+      for (const double y : {box.low.y(), box.high.y()})
+        for (const double z : {box.low.z(), box.high.z()}) points.emplace_back(x, y, z);
+  } else {
+    points = {Vector3::Zero(), body.cog};
+    for (const ContactSpec& contact : s.contacts)
+      if (contact.body == body.name) points.insert(points.end(), contact.points.begin(), contact.points.end());
+  }
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector3& p_B : points) {
+    const double z = (X_WB * p_B).z();
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+  return {low, high};
+}
+
+void find_splash(const Specification& s, const Operation& operation, std::vector<std::string>& gaps) {
+  const auto load =
+      std::find_if(s.bodies.begin(), s.bodies.end(), [&](const BodySpec& b) { return b.name == s.operation.load; });
+  if (load == s.bodies.end()) return;
+  const std::size_t index = static_cast<std::size_t>(load - s.bodies.begin());
+  bool in_air = false, in_water = false;
+  std::string phase;
+  for (std::size_t p = 0; p < operation.static_poses.size(); ++p) {
+    if (index >= operation.static_poses[p].bodies.size()) return;
+    const auto [low, high] = heights(s, *load, operation.static_poses[p].bodies[index]);
+    const bool was_split = in_air && in_water;
+    in_air = in_air || high > 0.0;
+    in_water = in_water || low < 0.0;
+    if (in_air && in_water && !was_split)
+      phase = p == 0 ? "at the start" : "in phase " + operation.static_poses[p].name;
+  }
+  if (!in_air || !in_water) return;
+  gaps.push_back(fmt::format("{} goes through the surface ({}): there is no slamming, no drag on the velocity of the "
+                             "water, and its added mass and damping do not change with immersion; amplification and "
+                             "slack in the splash zone come out too favourable{}",
+                             load->name, phase,
+                             load->hull.shape == HullSpec::Shape::none ? ", and without a hull it has no buoyancy" : ""));
+}
+
+void find_unheld(const Model& model, const Operation& operation, std::vector<std::string>& gaps) {
+  const Specification& s = model.specification();
+  const std::vector<std::string> vessels = operation_vessels(s);
+  if (vessels.empty() || s.wires.empty() || operation.equilibria.empty() || !s.solver.static_start) return;
+  const std::vector<Mode> modes = natural_modes(model, operation.equilibria.front());
+  for (const std::string& vessel : vessels) {
+    const int body = model.body_index(vessel);
+    for (const int axis : {0, 1}) {
+      const double period = period_of(modes, body, axis);
+      if (!(period > kHeld)) continue;
+      const std::string how = std::isfinite(period) ? fmt::format("its period there is {:.0f} s", period)
+                                                    : std::string("nothing brings it back");
+      gaps.push_back(fmt::format("{} is not held in {}: {}; waves and the moves of the crane carry it off, and what it "
+                                 "sets down lands off the target. Give it [[moorings]] that pull that way",
+                                 vessel, axis == 0 ? "x" : "y", how));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> model_gaps(const Model& model, const Operation& operation) {
+  std::vector<std::string> gaps;
+  find_shallow_water(model.specification(), gaps);
+  find_splash(model.specification(), operation, gaps);
+  find_unheld(model, operation, gaps);
+  return gaps;
+}
+
+}  // namespace stillhook

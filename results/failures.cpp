@@ -1,0 +1,127 @@
+#include "results/failures.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/crane_parts.h"
+#include "sim/spatial/constants.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kCarries = 0.1;  // of the largest static tension: a wire below it has no direction to judge
+
+/// The first sample at which f is true, or `otherwise`: the time of an extreme that lies between samples.
+template <class F>
+double first_time(const RunView& view, double otherwise, F f) {
+  const std::vector<double>& time = view.run().time;
+  for (std::size_t i = 0; i < time.size() && time[i] < otherwise; ++i)
+    if (f(i)) return time[i];
+  return otherwise;
+}
+
+std::string at(const RunView& view, double t) { return fmt::format("at {:.1f} s in {}", t, view.phase_at(t)); }
+
+void find_parted_wires(const RunView& view, std::vector<Failure>& failures) {
+  for (const WireSpec& wire : view.specification().wires) {
+    if (!(wire.breaking_load > 0.0)) continue;
+    const Peak largest = view.maximum(wire.name + ".tension", view.all_phases());
+    if (!(largest.value > wire.breaking_load)) continue;
+    const auto tension = view.series(wire.name + ".tension");
+    const double t = first_time(view, largest.time, [&](std::size_t i) {
+      return i < tension.size() && tension[i] > wire.breaking_load;
+    });
+    failures.push_back({t, fmt::format("wire {} parts {}: it is asked to hold {:.0f} kN, {:.3g} times its breaking "
+                                       "load of {:.0f} kN",
+                                       wire.name, at(view, t), largest.value / 1e3, largest.value / wire.breaking_load,
+                                       wire.breaking_load / 1e3)});
+  }
+}
+
+void find_capsized(const RunView& view, std::vector<Failure>& failures) {
+  for (const std::string& body : operation_vessels(view.specification()))
+    for (const auto& [quantity, what] : {std::pair{".roll", "heels"}, std::pair{".pitch", "trims"}}) {
+      const Peak largest = view.largest_magnitude(body + quantity, view.all_phases());
+      if (!(largest.value > kCapsized)) continue;
+      const auto angle = view.series(body + quantity);
+      const double t = first_time(view, largest.time,
+                                  [&](std::size_t i) { return i < angle.size() && std::abs(angle[i]) > kCapsized; });
+      failures.push_back({t, fmt::format("{} capsizes {}: it {} by up to {:.1f} deg, more than {:.0f} deg", body,
+                                         at(view, t), what, largest.value / kDegree, kCapsized / kDegree)});
+    }
+}
+
+/// A deck of a box hull that is under water at rest, at the end of a phase.
+void find_flooded(const RunView& view, std::vector<Failure>& failures) {
+  const Specification& s = view.specification();
+  const std::vector<std::string> vessels = operation_vessels(s);
+  const std::vector<PhaseRecord>& phases = view.run().phases;
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    const HullSpec& hull = s.bodies[b].hull;
+    if (hull.shape != HullSpec::Shape::box ||
+        std::find(vessels.begin(), vessels.end(), s.bodies[b].name) == vessels.end())
+      continue;
+    for (std::size_t p = 0; p < view.run().static_poses.size() && p <= phases.size(); ++p) {
+      const StaticPose& pose = view.run().static_poses[p];
+      if (b >= pose.bodies.size()) break;
+      double lowest = std::numeric_limits<double>::infinity();
+      for (const double x : {-0.5, 0.5})
+        for (const double y : {-0.5, 0.5})
+          lowest = std::min(
+              lowest, (pose.bodies[b] * (hull.centre + hull.size.cwiseProduct(Vector3(x, y, 0.5)))).z());
+      if (!(lowest < 0.0)) continue;
+      const double t = p == 0 ? view.start() : phases[p - 1].end;
+      failures.push_back({t, fmt::format("{} has no freeboard {}: at rest an edge of its deck is {:.2f} m under water",
+                                         s.bodies[b].name, at(view, t), -lowest)});
+      break;
+    }
+  }
+}
+
+void find_lost_load(const RunView& view, std::vector<Failure>& failures) {
+  for (const WireSpec& wire : view.specification().wires) {
+    if (wire.role != WireSpec::Role::hoist) continue;
+    const auto x = view.series(wire.name + ".offset_x"), y = view.series(wire.name + ".offset_y"),
+               length = view.series(wire.name + ".length"), tension = view.series(wire.name + ".tension");
+    if (x.empty() || y.empty() || length.empty() || tension.empty()) continue;
+    double carried = 0.0;
+    for (std::size_t i = 0; i < view.run().static_poses.size(); ++i)
+      carried = std::max(carried, view.static_value(i, wire.name + ".tension"));
+    Peak first;
+    for (std::size_t i = 0; i < view.run().time.size() && !first.valid(); ++i) {
+      const double angle = std::asin(std::min(1.0, std::hypot(x[i], y[i]) / length[i]));
+      if (tension[i] > kCarries * carried && tension[i] > 0.0 && angle > kSwungOut)
+        first = {angle, view.run().time[i]};
+    }
+    if (first.valid())
+      failures.push_back(
+          {first.time, fmt::format("the load is out of the crane's reach {}: wire {} stands {:.0f} deg from the "
+                                   "vertical and still carries",
+                                   at(view, first.time), wire.name, first.value / kDegree)});
+  }
+}
+
+}  // namespace
+
+std::vector<Failure> failures_of(const RunView& view) {
+  std::vector<Failure> failures;
+  find_parted_wires(view, failures);
+  find_capsized(view, failures);
+  find_flooded(view, failures);
+  find_lost_load(view, failures);
+  std::stable_sort(failures.begin(), failures.end(),
+                   [](const Failure& a, const Failure& b) { return a.time < b.time; });
+  return failures;
+}
+
+std::string failure_text(const std::vector<Failure>& failures) {
+  if (failures.empty()) return {};
+  const std::size_t more = failures.size() - 1;
+  return failures.front().sentence +
+         (more > 0 ? fmt::format("; {} more follow{}", more, more == 1 ? "s" : "") : std::string()) +
+         "; what comes after it is no lift";
+}
+
+}  // namespace stillhook

@@ -1,0 +1,46 @@
+// What a case is told that its model leaves out, and what it is not told.
+#include "problems/model_gaps.h"
+
+#include <catch2/catch.hpp>
+
+#include "problems/case.h"
+#include "problems/case_reader.h"
+
+using namespace stillhook;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string gaps_of(std::vector<Override> more) {
+  const Case c = read_case(std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml", std::move(more));
+  const Model model = build_model(c.specification);
+  std::string all;
+  for (const std::string& gap : model_gaps(model, build_operation(model))) all += gap + "\n";
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("waves that feel the bottom are told", "[gaps]") {
+  // 0.9 rad/s: 2 pi 9.80665 / 0.81 = 76.07 m, half of it 38.03 m.
+  CHECK_THAT(gaps_of({{"sea.depth_m", "38.0"}}), Contains("the waves feel the bottom: those of 7.0 s are 76 m long"));
+  CHECK_THAT(gaps_of({{"sea.depth_m", "38.1"}}), !Contains("bottom"));
+  CHECK_THAT(gaps_of({}), !Contains("bottom"));  // deep
+}
+
+TEST_CASE("a load that goes through the surface is told, one that stays in air is not", "[gaps]") {
+  CHECK_THAT(gaps_of({}), !Contains("surface"));
+  CHECK_THAT(gaps_of({{"operation.phases.hoist_up.moves.hoist.travel_m", "-7.0"}}),
+             Contains("load goes through the surface (in phase hoist_up)") && Contains("no slamming") &&
+                 Contains("without a hull it has no buoyancy"));
+}
+
+TEST_CASE("a vessel that no line holds is told", "[gaps]") {
+  // Both lines pull along x: y has the pretension over the distance alone, 2 * 50 kN / 200 m = 0.5 kN/m for 2,000 t of
+  // barge and added mass, 2 pi sqrt(2000/0.5) = 400 s.
+  const std::string gaps = gaps_of({});
+  CHECK_THAT(gaps, Contains("barge is not held in y: its period there is"));
+  CHECK_THAT(gaps, !Contains("held in x"));
+  CHECK_THAT(gaps_of({{"moorings.stern.azimuth_deg", "120.0"}, {"moorings.bow.azimuth_deg", "-60.0"}}),
+             !Contains("not held in y"));
+}
