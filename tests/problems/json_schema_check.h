@@ -77,7 +77,8 @@ class SchemaCheck {
       for (const auto& [key, sub] : rule.items())
         if (value.is_object() && value.contains(key)) collect(sub, value[key], path + "/" + key, out);
     } else if (keyword == "additionalProperties") {
-      for (const auto& [key, entry] : value.is_object() ? value.items() : Json::object().items())
+      if (!value.is_object()) return;
+      for (const auto& [key, entry] : value.items())
         if (!schema.contains("properties") || !schema["properties"].contains(key))
           collect(rule, entry, path + "/" + key, out);
     } else if (keyword == "required") {

@@ -1,6 +1,7 @@
 // A ship model's measured roll decay (1:11, tank test; tests/tuning/data/README.md says whose).
 #include <catch2/catch.hpp>
 
+#include "sim/spatial/constants.h"
 #include "tests/tuning/buoy.h"
 #include "tuning/identification.h"
 #include "tuning/record_unit.h"
