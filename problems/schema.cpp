@@ -31,6 +31,8 @@ Json list_schema(Json items, const std::vector<std::size_t>& sizes) {
   Json schema = {{"type", "array"}, {"items", std::move(items)}};
   schema["minItems"] = sizes.empty() ? 1 : sizes.front();
   if (!sizes.empty()) schema["maxItems"] = sizes.back();
+  if (sizes.size() > 1)  // as many as one of them, not as many as lie in between
+    for (const std::size_t size : sizes) schema["anyOf"].push_back({{"minItems", size}, {"maxItems", size}});
   return schema;
 }
 
@@ -43,6 +45,7 @@ Json schema_of(const Field& field) {
     case Field::Type::boolean:
       return {{"type", "boolean"}};
     case Field::Type::text:
+      if (field.reference != Reference::none) return {{"type", "string"}, {"minLength", 1}};
       return {{"type", "string"}};
     case Field::Type::file:
       return {{"type", "string"}, {"minLength", 1}};
@@ -53,11 +56,16 @@ Json schema_of(const Field& field) {
     case Field::Type::numbers:
       return list_schema(number_schema(field, "number"), field.sizes);
     case Field::Type::points:
-      return list_schema(list_schema(number_schema(field, "number"), field.sizes), {});
+      // Rows of six are those of a square matrix, others as many as there are points.
+      return list_schema(list_schema(number_schema(field, "number"), field.sizes),
+                         field.sizes.front() == 6 ? field.sizes : std::vector<std::size_t>{});
     case Field::Type::table:
       return schema_of(field.table());
-    case Field::Type::tables:
-      return {{"type", "array"}, {"items", schema_of(field.table())}};
+    case Field::Type::tables: {
+      Json schema = {{"type", "array"}, {"items", schema_of(field.table())}};
+      if (field.required) schema["minItems"] = 1;
+      return schema;
+    }
     case Field::Type::map:
       return {{"type", "object"}, {"additionalProperties", schema_of(field.table())}};
   }
@@ -77,10 +85,35 @@ Json json_value(const Value& value) {
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
-/// Exactly one, or at most one, of the keys of each group.
-void add_groups(Json& schema, const Table& table) {
+/// Keys that have a meaning only with some choices: refused with the others, some of them required with these.
+void add_choices(Json& all, const Table& table) {
   std::vector<std::string> done;
-  Json all = Json::array();
+  for (const Field& first : table.fields) {
+    const std::string rule = fmt::format("{}={}", first.when_key, fmt::join(first.when, ","));
+    if (first.when_key.empty() || std::find(done.begin(), done.end(), rule) != done.end()) continue;
+    done.push_back(rule);
+    Json only = Json::object(), required = Json::array();
+    for (const Field& field : table.fields) {
+      if (field.when_key != first.when_key || field.when != first.when) continue;
+      only[field.key] = false;
+      if (field.required) required.push_back(field.key);
+    }
+    Json chosen = {{"properties", {{first.when_key, {{"enum", first.when}}}}}};
+    const Field* choice = table.find(first.when_key);
+    const auto value = choice ? table.default_of(*choice) : std::nullopt;
+    const auto* text = value ? std::get_if<std::string>(&*value) : nullptr;
+    const bool by_default = text && std::find(first.when.begin(), first.when.end(), *text) != first.when.end();
+    if (!by_default) chosen["required"] = Json::array({first.when_key});
+    Json entry = {{"if", chosen}};
+    if (!required.empty()) entry["then"] = {{"required", required}};
+    entry["else"] = {{"properties", only}};
+    all.push_back(std::move(entry));
+  }
+}
+
+/// Exactly one, or at most one, of the keys of each group.
+void add_groups(Json& all, const Table& table) {
+  std::vector<std::string> done;
   for (const Field& first : table.fields) {
     if (first.group.empty() || std::find(done.begin(), done.end(), first.group) != done.end()) continue;
     done.push_back(first.group);
@@ -93,7 +126,6 @@ void add_groups(Json& schema, const Table& table) {
     if (!first.group_required) one.push_back({{"not", {{"anyOf", any}}}});
     all.push_back({{"oneOf", one}});
   }
-  if (!all.empty()) schema["allOf"] = all;
 }
 
 Json schema_of(const Table& table) {
@@ -109,7 +141,10 @@ Json schema_of(const Table& table) {
   }
   schema["properties"] = std::move(properties);
   if (!required.empty()) schema["required"] = std::move(required);
-  add_groups(schema, table);
+  Json all = Json::array();
+  add_choices(all, table);
+  add_groups(all, table);
+  if (!all.empty()) schema["allOf"] = std::move(all);
   return schema;
 }
 

@@ -151,15 +151,6 @@ std::string summary_json(const Summary& summary) {
   add_search(summary, document);
   if (summary.certificate) document["certificate"] = certificate_json(*summary.certificate);
   if (summary.pareto) document["pareto"] = pareto_json(*summary.pareto);
-  if (!summary.estimates.empty()) {
-    Json& estimates = document["estimates"] = Json::array();
-    for (const EstimateSummary& e : summary.estimates)
-      estimates.push_back({{"name", e.name},
-                           {"unit", e.unit},
-                           {"value", json_number(e.value)},
-                           {"low", json_number(e.low)},
-                           {"high", json_number(e.high)}});
-  }
   // Names come from the case file; bytes that are not UTF-8 are replaced rather than thrown at the user at the end.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

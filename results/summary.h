@@ -34,13 +34,6 @@ struct VariableSummary {
   double baseline = std::numeric_limits<double>::quiet_NaN(), plan = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A fitted parameter with its confidence interval.
-struct EstimateSummary {
-  std::string name, unit;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
-};
-
 /// A mean over fresh conditions with its 90 % interval.
 struct MeanSummary {
   double mean = std::numeric_limits<double>::quiet_NaN();
@@ -90,8 +83,7 @@ struct Summary {
   std::vector<VariableSummary> variables;
   std::optional<CertificateSummary> certificate;
   std::optional<ParetoSummary> pareto;
-  std::vector<EstimateSummary> estimates;  // fits
-  std::vector<std::string> warnings;       // what must be known before the numbers are used, one sentence each
+  std::vector<std::string> warnings;  // what must be known before the numbers are used, one sentence each
 };
 
 /// "completed", "interrupted", "diverged", "failed", "not_run".
@@ -105,8 +97,8 @@ Summary summarise(const Specification& specification, const Trajectory& trajecto
 /// and infinities become null.
 std::string summary_json(const Summary& summary);
 
-/// Reads a file that write_summary() has written: what concerns the run, that is everything but what a search or
-/// a fit adds. null becomes NaN. Throws FileError that names the file and what is missing or wrong in it.
+/// Reads a file that write_summary() has written: what concerns the run, that is everything but what a search
+/// adds. null becomes NaN. Throws FileError that names the file and what is missing or wrong in it.
 Summary read_summary(const std::string& path);
 
 /// Writes summary_json() to a file, whole or not at all. Throws FileError.

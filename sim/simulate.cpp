@@ -146,7 +146,9 @@ class Run {
         continue;
       }
       if (++halvings > kHalvings) {
-        diverged("Newton's method does not converge");
+        const int body = std::max(0, stepper_.failed_body());
+        diverged("Newton's method does not converge (largest correction: body '" + model_.system().bodies[body].name +
+                 "')");
         return false;
       }
       step *= 0.5;
@@ -158,16 +160,16 @@ class Run {
   bool lost() {
     for (std::size_t i = 0; i < state_.body.size(); ++i) {
       if (state_.body[i].p_WC.allFinite() && state_.body[i].p_WC.cwiseAbs().maxCoeff() < kLost) continue;
-      diverged("'" + model_.system().bodies[i].name + "' has left the scene");
+      diverged("body '" + model_.system().bodies[i].name + "' has left the scene, more than " +
+               std::to_string(std::lround(kLost / 1e3)) + " km from the origin");
       return true;
     }
     return false;
   }
 
   void diverged(const std::string& what) {
-    const int body = std::max(0, stepper_.failed_body());
     out_.message = "diverged at t = " + std::to_string(state_.t) + " s in phase '" + out_.phases[phase()].name +
-                   "': " + what + " (largest correction: body '" + model_.system().bodies[body].name + "')";
+                   "': " + what;
   }
 
   const Model& model_;

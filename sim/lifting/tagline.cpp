@@ -14,24 +14,6 @@ constexpr double kSteepest = 0.1;     // least horizontal share of the line at t
 constexpr double kSwitchRate = 2e-4;  // rad/s, over which the Kp term sets in
 }  // namespace
 
-TaglineCase tagline_case(double theta_rate, double error) {
-  if (theta_rate < 0.0) return TaglineCase::C;
-  return error >= 0.0 ? TaglineCase::A : TaglineCase::B;
-}
-
-double tagline_law(double theta, double theta_rate, double set_point, double kp, double kd) {
-  const double e = theta - set_point;
-  switch (tagline_case(theta_rate, e)) {
-    case TaglineCase::A:
-      return kp * e + kd * theta_rate;
-    case TaglineCase::B:
-      return kd * theta_rate;
-    case TaglineCase::C:
-      break;
-  }
-  return 0.0;
-}
-
 Tagline::Tagline(TaglineOptions options, const Instant& initial)
     : ForceElement(options.name), options_(std::move(options)) {
   const TaglineOptions& o = options_;

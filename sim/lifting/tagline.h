@@ -69,14 +69,6 @@ struct TaglineOptions {
   bool operator==(const TaglineOptions&) const = default;
 };
 
-enum class TaglineCase { A, B, C };
-
-/// Which of Eq. 12-14 holds.
-TaglineCase tagline_case(double theta_rate, double error);
-
-/// T_law of Eq. 12-14, N.
-double tagline_law(double theta, double theta_rate, double set_point, double kp, double kd);
-
 class Tagline final : public ForceElement {
  public:
   /// `initial` defines the plane and the length that EA refers to. Throws SpecificationError when an option breaks its

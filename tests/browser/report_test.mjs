@@ -83,6 +83,17 @@ async function checkTruth(page) {
       for (const { body, group } of scene.bodies)
         for (const [k, axis] of ["x", "y", "z"].entries())
           if (!(Math.abs(group.position[axis] - payload.value(body.pose[k], place)) < 1e-6)) wrong.push(body.name + "." + axis);
+      // The payload has w, x, y, z; what the scene turns by is the matrix, written out here from them.
+      for (const { body, group } of scene.bodies) {
+        const parts = [3, 4, 5, 6].map((k) => payload.value(body.pose[k], place)), length = Math.hypot(...parts);
+        const [w, x, y, z] = parts.map((part) => part / length);
+        const columns = [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+                         [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+                         [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]];
+        for (let column = 0; column < 3; ++column)
+          for (let row = 0; row < 3; ++row)
+            if (!(Math.abs(group.matrix.elements[4 * column + row] - columns[column][row]) < 1e-6)) wrong.push(body.name + " is turned wrongly");
+      }
     }
     return wrong;
   })()`);

@@ -160,6 +160,48 @@ TEST_CASE("the replay holds the run: times, poses, tensions, phases and contacts
   CHECK(replay.header["contacts"].size() == run.contacts.size());
 }
 
+TEST_CASE("the replay turns bodies as the run did: roll, then pitch, then yaw, about the world's axes") {
+  truth::SyntheticLift lift;
+  Trajectory& run = lift.trajectory;
+  const auto channel = [&](const char* name) -> std::vector<double>& {
+    return run.values[static_cast<std::size_t>(run.find(name))];
+  };
+  // Three different angles, each large: another order, a mirrored turn or swapped parts of the quaternion show.
+  const auto angles = [](double t) {
+    return std::array{0.5 + 0.2 * std::sin(0.01 * t), -0.9 + 0.1 * std::cos(0.02 * t), 2.5 - 0.004 * t};
+  };
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    const auto [roll, pitch, yaw] = angles(run.time[i]);
+    channel("load.roll")[i] = roll;
+    channel("load.pitch")[i] = pitch;
+    channel("load.yaw")[i] = yaw;
+  }
+  const Replay replay = replay_of(lift);
+  const std::vector<double> time = replay.time();
+  for (const nlohmann::json& body : replay.header["scene"]["bodies"]) {
+    if (body["kind"] != "load") continue;
+    std::array<std::vector<double>, 4> q;  // w, x, y, z
+    for (std::size_t k = 0; k < 4; ++k) q[k] = replay.at(body["pose"][3 + k]);
+    for (std::size_t i = 0; i < time.size(); i += 61) {
+      CAPTURE(time[i]);
+      const auto [roll, pitch, yaw] = angles(run.time[i]);
+      const double cr = std::cos(roll), sr = std::sin(roll), cp = std::cos(pitch), sp = std::sin(pitch), cy = std::cos(yaw),
+                   sy = std::sin(yaw);
+      // Rz(yaw) Ry(pitch) Rx(roll) written out, and the matrix of a unit quaternion from the textbook.
+      const double euler[3][3] = {{cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr},
+                                  {sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr},
+                                  {-sp, cp * sr, cp * cr}};
+      const double w = q[0][i], x = q[1][i], y = q[2][i], z = q[3][i];
+      const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                                   {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                                   {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+      // Each part is stored to half of 1/65534 of its range of at most 2.
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) CHECK(turned[row][column] == Approx(euler[row][column]).margin(2e-4));
+    }
+  }
+}
+
 TEST_CASE("a run beyond the budget keeps the peaks of every line") {
   truth::SyntheticLift lift;
   auto& z = lift.trajectory.values[static_cast<std::size_t>(lift.trajectory.find("load.z"))];

@@ -67,20 +67,66 @@ enum { kTension, kCommand, kLineSpeed, kSaturated, kAngle, kAngleRate };
 
 }  // namespace
 
-TEST_CASE("the tagline law is Eq. 12-14, case by case") {
-  const double kp = 3.0, kd = 7.0, set = 0.1;
-  CHECK(tagline_case(0.2, 0.05) == TaglineCase::A);
-  CHECK(tagline_case(0.0, 0.0) == TaglineCase::A);
-  CHECK(tagline_case(0.2, -0.05) == TaglineCase::B);
-  CHECK(tagline_case(0.0, -0.05) == TaglineCase::B);
-  CHECK(tagline_case(-0.2, 0.05) == TaglineCase::C);
-  CHECK(tagline_case(-0.2, -0.05) == TaglineCase::C);
-  CHECK(tagline_law(0.15, 0.2, set, kp, kd) == Approx(3.0 * 0.05 + 7.0 * 0.2));  // A
-  CHECK(tagline_law(0.15, 0.0, set, kp, kd) == Approx(3.0 * 0.05));              // A, edge
-  CHECK(tagline_law(0.05, 0.2, set, kp, kd) == Approx(7.0 * 0.2));               // B
-  CHECK(tagline_law(-0.3, 0.2, set, kp, kd) == Approx(7.0 * 0.2));               // B, other side of plumb
-  CHECK(tagline_law(0.15, -0.2, set, kp, kd) == 0.0);                            // C
-  CHECK(tagline_law(0.05, -0.2, set, kp, kd) == 0.0);                            // C
+namespace {
+
+/// Eq. 12-14 of Cha, Nam & Ha (2018) as printed, for a constant set point. N
+double printed_law(double theta, double theta_rate, double set_point, double kp, double kd) {
+  const double e = theta - set_point;
+  if (theta_rate < 0.0) return 0.0;                    // case C
+  return e >= 0.0 ? kp * e + kd * theta_rate           // case A
+                  : kd * theta_rate;                   // case B
+}
+
+/// The load's speed away from the winch for which the hoist wire turns at `theta_rate`, `out` from plumb. m/s
+double speed_for(double out, double theta_rate) { return theta_rate * (out * out + kHoist * kHoist) / kHoist; }
+
+}  // namespace
+
+TEST_CASE("the commanded tension is Eq. 12-14 with the set point, at every rate above the switch") {
+  for (const double set_point : {0.0, 0.03, -0.02}) {
+    TaglineOptions o = line_options();
+    o.set_point = set_point;
+    Line line(o);
+    line.start(hanging(0.0, 0.0));
+    for (const double out : {-4.0, -1.0, 0.0, 2.0, 2.6, 2.8, 4.0})
+      // 2e-4 rad/s is where the Kp term has set in; a swing of half a degree in 20 s has 3e-3 rad/s.
+      for (const double rate : {-2e-2, -2e-4, -1e-6, 2.001e-4, 3e-3, 2e-2}) {
+        CAPTURE(set_point, out, rate);
+        const double theta = std::atan2(out, kHoist);
+        CHECK(line.channel(hanging(out, speed_for(out, rate)), kCommand) ==
+              Approx(20e3 + printed_law(theta, rate, set_point, 1.2e6, 6.0e6)).epsilon(1e-9));
+      }
+  }
+}
+
+TEST_CASE("the Kp term sets in between standing still and 2e-4 rad/s, the Kd term does not wait") {
+  TaglineOptions o = line_options();
+  o.set_point = 0.01;
+  Line line(o);
+  line.start(hanging(0.0, 0.0));
+  const double out = 4.0, e = std::atan2(out, kHoist) - 0.01;
+  const auto command = [&](double rate) { return line.channel(hanging(out, speed_for(out, rate)), kCommand); };
+  // x^2 (3 - 2 x) at a quarter, a half and three quarters of the switch: 10/64, 1/2, 54/64.
+  for (const auto& [share, sets_in] : std::vector<std::array<double, 2>>{
+           {0.0, 0.0}, {0.25, 0.15625}, {0.5, 0.5}, {0.75, 0.84375}, {1.0, 1.0}, {2.0, 1.0}}) {
+    CAPTURE(share);
+    const double rate = share * 2e-4;
+    // A rate of 1e-4 rad/s comes out of a speed of 1e-2 m/s with rounding of 1e-16 / 1e-4.
+    CHECK(command(rate) == Approx(20e3 + sets_in * 1.2e6 * e + 6.0e6 * rate).epsilon(1e-9));
+  }
+  CHECK(command(-1e-4) == Approx(20e3).epsilon(1e-12));
+}
+
+TEST_CASE("at rest the tagline holds against what exceeds its set point") {
+  TaglineOptions o = line_options();
+  o.set_point = 0.02;
+  Line line(o);
+  for (const double out : {-3.0, 1.0, 4.0}) {
+    CAPTURE(out);
+    line.start(hanging(out, 0.0));
+    const double e = std::max(0.0, std::atan2(out, kHoist) - 0.02);
+    CHECK(line.channel(hanging(out, 0.0), kTension) == Approx(20e3 + 1.2e6 * e).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("the command follows the sign convention: away from the winch is positive") {

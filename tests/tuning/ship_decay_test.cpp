@@ -1,10 +1,7 @@
-// A ship model's measured roll decay (1:11, tank test; validation data of xdyn, sirehna/xdyn, Extinctions_essais, EPL-2.0).
-// The data are not part of this project: the folder that holds them is named by STILLHOOK_REFERENCE_DATA, and without it
-// the test says that it was skipped.
+// A ship model's measured roll decay (1:11, tank test; tests/tuning/data/README.md says whose).
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
 
+#include "sim/spatial/constants.h"
 #include "tests/tuning/buoy.h"
 #include "tuning/identification.h"
 #include "tuning/record_unit.h"
@@ -75,13 +72,8 @@ double rms_by_hand(const Case& c) {
 }
 
 TEST_CASE("measured roll decay of a ship model", "[fit][slow]") {
-  const char* folder = std::getenv("STILLHOOK_REFERENCE_DATA");
-  const std::string data = folder ? folder : "";
-  const std::string run = data + "/ship_roll_decay_measured.csv", hull = data + "/ship_roll_decay_hull.stl";
-  if (data.empty() || !std::filesystem::exists(run) || !std::filesystem::exists(hull)) {
-    WARN("skipped: STILLHOOK_REFERENCE_DATA does not name a folder with ship_roll_decay_measured.csv and ..._hull.stl");
-    return;
-  }
+  const std::string data = STILLHOOK_SOURCE_DIR "/tests/tuning/data/";
+  const std::string run = data + "ship_model_roll_decay.csv", hull = data + "ship_model_hull.obj";
   const std::string at = "bodies.ship.hydrodynamics.";
   const Case c = case_of(ship_text(hull) + "[fit]\n" + parameter(at + "added_inertia_t_m2.0", 50.0, 1500.0) +
                          parameter(at + "linear_angular_damping_kN_m_s_per_rad.0", 0.0, 200.0) +
@@ -92,8 +84,12 @@ TEST_CASE("measured roll decay of a ship model", "[fit][slow]") {
   REQUIRE(fit.records[0].decays.size() == 1);
   const DecayComparison& decay = fit.records[0].decays[0];
   INFO("rms by hand " << by_hand << " rad, fitted " << fitted << " rad");
-  CHECK(decay.simulated.period == Approx(decay.measured.period).epsilon(0.02));
-  CHECK(fitted < 0.7 * by_hand);
+  // Found: 0.3 % and 0.146 deg. Half a per cent of 6.3 s is a fifth of a sample of the record; what is left of the fit is
+  // the record's own noise of a tenth of a degree and the tank's reflections. The publishers' own numbers leave 0.88 deg.
+  CHECK(decay.measured.period == Approx(6.337).epsilon(0.002));
+  CHECK(decay.simulated.period == Approx(decay.measured.period).epsilon(0.005));
+  CHECK(fitted < 0.17 * kDegree);
+  CHECK(by_hand == Approx(0.884 * kDegree).epsilon(0.02));
 }
 
 }  // namespace

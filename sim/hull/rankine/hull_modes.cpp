@@ -27,21 +27,6 @@ MatrixX inertia_of(const MatrixX& response, const ClassModes& modes, const Vecto
   return -modes.normal.transpose() * weight.asDiagonal() * (response * modes.normal);
 }
 
-MatrixX infinite_frequency_mass(const std::vector<PanelHull>& hulls, const Layout& layout, double panel_length,
-                                double density) {
-  const int count = 6 * static_cast<int>(hulls.size());
-  const HullPanels panels = panels_of(hulls, layout, panel_length);
-  const VectorX weight = panel_weights(panels, density);
-  MatrixX A = MatrixX::Zero(count, count);
-  for (const BoundaryClass& c : limit_problem(panels)) {
-    const ClassModes modes = modes_of(panels, layout, c.parity);
-    const MatrixX block = inertia_of(c.local, modes, weight);
-    for (std::size_t i = 0; i < modes.modes.size(); ++i)
-      for (std::size_t j = 0; j < modes.modes.size(); ++j) A(modes.modes[i], modes.modes[j]) = block(i, j);
-  }
-  return 0.5 * (A + A.transpose());
-}
-
 Eigen::VectorXcd incident_velocity(const HullPanels& panels, const Parity& parity, double frequency, double heading,
                                    double gravity) {
   using Complex = std::complex<double>;

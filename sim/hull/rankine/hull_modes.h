@@ -22,10 +22,6 @@ VectorX panel_weights(const HullPanels& panels, double density);
 /// BoundaryClass).
 MatrixX inertia_of(const MatrixX& response, const ClassModes& modes, const VectorX& weight);
 
-/// A_inf about the hulls' middles by the hulls alone, panels at most panel_length (m) long.
-MatrixX infinite_frequency_mass(const std::vector<PanelHull>& hulls, const Layout& layout, double panel_length,
-                                double density);
-
 /// d(phi_I)/dn on the panels of a wave of unit amplitude, the part of one parity: the mean over the images of sign times
 /// value; the whole is the sum over the parities. heading: rad in the problem's frame, time factor exp(-i w t), crest at
 /// the frame's origin at t = 0. m/s per m.
