@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/multibody/hht.h"
+#include "sim/number_text.h"
 #include "sim/operation_clock.h"
 #include "sim/recorder.h"
 #include "sim/tangent_pass.h"
@@ -166,7 +167,7 @@ class Run {
 
   void diverged(const std::string& what) {
     const int body = std::max(0, stepper_.failed_body());
-    out_.message = "diverged at t = " + std::to_string(state_.t) + " s in phase '" + out_.phases[phase()].name +
+    out_.message = "diverged at t = " + number_text(state_.t) + " s in phase '" + out_.phases[phase()].name +
                    "': " + what + " (largest correction: body '" + model_.system().bodies[body].name + "')";
   }
 
