@@ -54,9 +54,10 @@ FolderLock::FolderLock(const std::string& folder) {
   struct stat info = {};
   const long process = ::fstat(fd, &info) == 0 ? holder_of(info.st_ino) : 0;
   const std::string command = process > 0 ? command_of(process) : std::string();
-  throw UsageError(fmt::format("{}: another run is writing into this folder, {}{}; wait until it ends, or use another --out",
-                               folder, process > 0 ? fmt::format("process {}", process) : "of a process unknown",
-                               command.empty() ? "" : " (" + command + ")"));
+  throw UsageError(
+      fmt::format("{}: another run is writing into this folder, {}{}; wait until it ends, or use another --out", folder,
+                  process > 0 ? fmt::format("process {}", process) : "of a process unknown",
+                  command.empty() ? "" : " (" + command + ")"));
 }
 
 }  // namespace stillhook

@@ -1,5 +1,5 @@
-// One process at a time writes into a run folder. The lock is the operating system's (flock), on the folder itself: it needs
-// no file, and is gone with the process however that ends.
+// One process at a time writes into a run folder. The lock is the operating system's (flock), on the folder itself: it
+// needs no file, and is gone with the process however that ends.
 #pragma once
 
 #include <memory>

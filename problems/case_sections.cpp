@@ -34,8 +34,8 @@ constexpr std::array kSections = {
 std::span<const CaseSection> case_sections() { return kSections; }
 
 bool may_be_varied(const std::string& section) {
-  const auto found = std::find_if(kSections.begin(), kSections.end(),
-                                  [&](const CaseSection& s) { return s.key == section; });
+  const auto found =
+      std::find_if(kSections.begin(), kSections.end(), [&](const CaseSection& s) { return s.key == section; });
   return found == kSections.end() || found->varied;  // a key that does not exist is told as that
 }
 

@@ -1,5 +1,5 @@
-// The sections of a case and what they are for, in one place: what a search or fit may vary, what a store of evaluations
-// belongs to, whose entries share one set of names.
+// The sections of a case and what they are for, in one place: what a search or fit may vary, what a store of
+// evaluations belongs to, whose entries share one set of names.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// What engineers look for in a case and stillhook does not have, so that a key of that name gets an answer and not a list.
+// What engineers look for in a case and stillhook does not have, so that a key of that name gets an answer and not a
+// list.
 #pragma once
 
 #include <string>

@@ -19,10 +19,10 @@
 namespace stillhook {
 namespace {
 
-constexpr rlim_t kSeconds = 20;                      // of processor time, and one more for each megabyte
-constexpr rlim_t kMemory = rlim_t{1} << 30;          // bytes beyond what the process has
-constexpr rlim_t kMemoryPerByte = 64;                // of the file: numbers may be compressed that well
-constexpr int kTooMuchMemory = 3;                    // exit code of the child
+constexpr rlim_t kSeconds = 20;              // of processor time, and one more for each megabyte
+constexpr rlim_t kMemory = rlim_t{1} << 30;  // bytes beyond what the process has
+constexpr rlim_t kMemoryPerByte = 64;        // of the file: numbers may be compressed that well
+constexpr int kTooMuchMemory = 3;            // exit code of the child
 
 void set_limit(int what, rlim_t value) {
   rlimit limit{};
@@ -39,7 +39,8 @@ rlim_t address_space() {
 }
 
 [[noreturn]] void be_the_child(const std::function<void()>& read, rlim_t bytes) {
-  for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM}) std::signal(fatal, SIG_DFL);
+  for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM})
+    std::signal(fatal, SIG_DFL);
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, kSeconds + bytes / 1000000);
   set_limit(RLIMIT_AS, address_space() + kMemory + kMemoryPerByte * bytes);
@@ -70,9 +71,9 @@ void try_reading(const std::string& path, const std::function<void()>& read) {
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return;
   if (WIFSIGNALED(status))
-    throw FileError(fmt::format("{}: is damaged: the NetCDF library cannot read it ({})", path,
-                                WTERMSIG(status) == SIGXCPU ? "it does not come to an end"
-                                                            : ::strsignal(WTERMSIG(status))));
+    throw FileError(
+        fmt::format("{}: is damaged: the NetCDF library cannot read it ({})", path,
+                    WTERMSIG(status) == SIGXCPU ? "it does not come to an end" : ::strsignal(WTERMSIG(status))));
   if (WIFEXITED(status) && WEXITSTATUS(status) == kTooMuchMemory)
     throw FileError(path + ": is damaged: it says that it holds more than a file of its size can");
 }

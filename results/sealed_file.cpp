@@ -61,7 +61,8 @@ bool has_good_seal(const std::string& path) {
   if (!in || !seal.starts_with(kMark)) return false;
   in.seekg(0);
   if (seal != seal_of(hash_of(in, size - kSealSize)))
-    throw FileError(path + ": is damaged: its checksum is not that of what it holds; run again, or take it from a copy");
+    throw FileError(path +
+                    ": is damaged: its checksum is not that of what it holds; run again, or take it from a copy");
   return true;
 }
 

@@ -1,5 +1,5 @@
-// A checksum at the end of a finished file, over all that stands before it. HDF5 and NetCDF do not look behind the end that
-// a file gives itself, so that any program reads a sealed file as before.
+// A checksum at the end of a finished file, over all that stands before it. HDF5 and NetCDF do not look behind the end
+// that a file gives itself, so that any program reads a sealed file as before.
 #pragma once
 
 #include <string>

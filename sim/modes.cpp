@@ -15,6 +15,7 @@ constexpr int kMaxFrequencySteps = 60;
 constexpr double kFrequencyTolerance = 1e-6;   // of a frequency, relative
 constexpr double kSlowest = 1e-3;     // rad/s: below this a motion has no restoring stiffness
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRedundant = 1e-10;  // of the largest constraint: beyond rounding, far below any lever arm
 constexpr double kNamedShare = 0.15;  // of the kinetic energy: what a label names
 
 struct Eigensystem {
@@ -105,7 +106,8 @@ std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium) const {
     MatrixX C_q;
     system.constraint_jacobian(state, C_q);
     // Constraints may say the same twice, as two clamps of one body do: their rank counts.
-    const Eigen::ColPivHouseholderQR<MatrixX> qr(C_q.transpose());
+    Eigen::ColPivHouseholderQR<MatrixX> qr(C_q.transpose());
+    qr.setThreshold(kRedundant);
     Z = MatrixX(qr.householderQ()).rightCols(system.coordinates() - qr.rank());
   }
   if (Z.cols() == 0) return {};  // nothing can move

@@ -116,7 +116,8 @@ CsvCell CsvRows::quoted_cell(char separator) {
   CsvCell cell{text_.substr(begin, at_ - begin), true};
   ++at_;
   const CsvCell tail = plain_cell(separator);
-  if (!tail.text.empty()) throw std::runtime_error("text follows the closing quote of a cell: " + std::string(tail.text.substr(0, 40)));
+  if (!tail.text.empty())
+    throw std::runtime_error("text follows the closing quote of a cell: " + std::string(tail.text.substr(0, 40)));
   if (doubled) {
     std::string plain;
     for (std::size_t i = 0; i < cell.text.size(); ++i) {
@@ -159,9 +160,9 @@ bool may_be_thousands(std::string_view cell) {
 }
 
 bool says_missing(std::string_view cell) {
-  static constexpr std::array<std::string_view, 16> kWords = {"",     "nan",     "na",      "n/a",    "null",     "none",
-                                                              "-",    "--",      "inf",     "#n/a",   "infinity", "missing",
-                                                              "#num!", "1.#qnan", "1.#ind", "1.#inf"};
+  static constexpr std::array<std::string_view, 16> kWords = {
+      "",    "nan",  "na",       "n/a",     "null",  "none",    "-",      "--",
+      "inf", "#n/a", "infinity", "missing", "#num!", "1.#qnan", "1.#ind", "1.#inf"};
   std::string lower = lower_case(cell);
   if (lower.size() > 1 && (lower.front() == '+' || (lower.front() == '-' && lower != "--"))) lower.erase(0, 1);
   return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
@@ -170,8 +171,8 @@ bool says_missing(std::string_view cell) {
 bool may_be_unit(std::string_view cell) {
   if (cell.empty() || cell == "1" || cell == "-") return true;
   const auto first = static_cast<unsigned char>(cell.front());
-  const bool opens = std::isalpha(first) || first >= 128 || first == '[' || first == '(' || first == '%' ||
-                     cell.starts_with("1/");
+  const bool opens =
+      std::isalpha(first) || first >= 128 || first == '[' || first == '(' || first == '%' || cell.starts_with("1/");
   return opens && !number_with_point(cell);
 }
 

@@ -1,5 +1,5 @@
-// Text of a table in cells, as RFC 4180 has it: a cell in double quotes may hold separators and line breaks, and a quote
-// is written twice in it. Besides commas there are semicolons, tabs, and runs of blanks.
+// Text of a table in cells, as RFC 4180 has it: a cell in double quotes may hold separators and line breaks, and a
+// quote is written twice in it. Besides commas there are semicolons, tabs, and runs of blanks.
 #pragma once
 
 #include <optional>

@@ -87,8 +87,8 @@ class CsvReader {
     place_.assign(found.size(), -1);
     const auto is_number = [](const std::string& cell) { return number_with_point(cell) || number_with_comma(cell); };
     if (std::all_of(found.begin(), found.end(), is_number))
-      throw CaseError(fmt::format("{}:{}: has no line with the names of its columns, numbers begin at once", table_.file,
-                                  line));
+      throw CaseError(
+          fmt::format("{}:{}: has no line with the names of its columns, numbers begin at once", table_.file, line));
     for (std::size_t k = 0; k < table_.names.size(); ++k) {
       if (first_of(k) != k) continue;
       const auto at = std::find(found.begin(), found.end(), table_.names[k]);
@@ -179,14 +179,15 @@ class CsvReader {
   /// A comma that may be decimal or part the thousands is not guessed.
   void refuse_ambiguous_commas() const {
     if (comma_.line > 0 && point_.line > 0)
-      throw CaseError(fmt::format("{}:{}: has a number with a comma, \"{}\", and in line {} one with a point, \"{}\": "
-                                  "write all of them with a decimal point and without a sign between thousands",
-                                  table_.file, comma_.line, comma_.text.substr(0, kShown), point_.line,
-                                  point_.text.substr(0, kShown)));
+      throw CaseError(fmt::format(
+          "{}:{}: has a number with a comma, \"{}\", and in line {} one with a point, \"{}\": "
+          "write all of them with a decimal point and without a sign between thousands",
+          table_.file, comma_.line, comma_.text.substr(0, kShown), point_.line, point_.text.substr(0, kShown)));
     if (comma_.line > 0 && separator_ == ',' && !certain_comma_)
-      throw CaseError(fmt::format("{}:{}: \"{}\" may have a decimal comma or a comma between thousands: write decimal "
-                                  "points and no sign between thousands",
-                                  table_.file, comma_.line, comma_.text.substr(0, kShown)));
+      throw CaseError(
+          fmt::format("{}:{}: \"{}\" may have a decimal comma or a comma between thousands: write decimal "
+                      "points and no sign between thousands",
+                      table_.file, comma_.line, comma_.text.substr(0, kShown)));
   }
 
   MeasuredTable table_;

@@ -47,7 +47,8 @@ std::size_t length_of_variable(const NetcdfFile& file, int id, const std::string
 std::vector<double> numbers_of(const NetcdfFile& file, int id, const char* attribute) {
   nc_type type = NC_NAT;
   std::size_t length = 0;
-  if (nc_inq_att(file.id(), id, attribute, &type, &length) != NC_NOERR || type == NC_CHAR || type == NC_STRING) return {};
+  if (nc_inq_att(file.id(), id, attribute, &type, &length) != NC_NOERR || type == NC_CHAR || type == NC_STRING)
+    return {};
   std::vector<double> values(length);
   file.check(nc_get_att_double(file.id(), id, attribute, values.data()), std::string("attribute ") + attribute);
   return values;

@@ -9,10 +9,10 @@ namespace stillhook {
 namespace {
 
 /// Magnitudes that loggers, databases and NetCDF's default write where nothing was measured.
-constexpr std::array kUsual = {99.0,    99.9,     99.99,    999.0,   999.25,  999.9,        999.99,       9999.0,
-                               9999.9,  9999.99,  99999.0,  99999.9, 999999.0, 9999999.0,   99999999.0,   32767.0,
-                               32768.0, 2147483647.0, 2147483648.0, 1e10, 1e20, 1e30,       1e35,         1e36,
-                               1e37,    1e38,     8888.0,   88888.0, 7777.0,   77777.0};
+constexpr std::array kUsual = {99.0,    99.9,         99.99,        999.0,   999.25,   999.9,     999.99,     9999.0,
+                               9999.9,  9999.99,      99999.0,      99999.9, 999999.0, 9999999.0, 99999999.0, 32767.0,
+                               32768.0, 2147483647.0, 2147483648.0, 1e10,    1e20,     1e30,      1e35,       1e36,
+                               1e37,    1e38,         8888.0,       88888.0, 7777.0,   77777.0};
 
 bool is_usual(double value) {
   const double size = std::abs(value);

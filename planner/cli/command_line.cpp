@@ -11,6 +11,7 @@
 #include <functional>
 #include <new>
 #include <sstream>
+#include <stdexcept>
 
 #include "planner/cli/colour.h"
 #include "planner/cli/command_tree.h"
@@ -227,8 +228,8 @@ std::string exit_code_text() {
 
 /// What the user can do about a computation that the machine is too small for.
 constexpr const char* kTooLittleMemory =
-    "there is too little memory for this: use fewer --threads, a longer solver.output_interval_s, or fewer panels "
-    "(hydrodynamics.panels), or a machine with more of it";
+    "there is too little memory for this: use fewer --threads, a longer solver.output_interval_s, coarser panels "
+    "(panel_method.refinement, hull.panel_length_m), or a machine with more of it";
 
 int run_verb(const Request& request) {
   try {
@@ -236,6 +237,8 @@ int run_verb(const Request& request) {
   } catch (const OutputError& error) {
     spdlog::error("{}", error.what());
   } catch (const std::bad_alloc&) {
+    spdlog::error(kTooLittleMemory);
+  } catch (const std::length_error&) {  // more than any machine has
     spdlog::error(kTooLittleMemory);
   } catch (const CaseError& error) {
     spdlog::error("{}", error.what());

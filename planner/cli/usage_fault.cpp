@@ -31,8 +31,8 @@ std::string verb_fault(const CLI::App& app, const std::vector<std::string>& word
   const std::vector<std::string> verbs = verbs_of(app);
   const auto word = std::find_if_not(words.begin(), words.end(), is_option);
   if (word == words.end() && !words.empty())
-    return fmt::format("there is no option \"{}\"{}; a command comes first: stillhook COMMAND, one of {}", words.front(),
-                       did_you_mean(words.front(), options_of(app)), fmt::join(verbs, ", "));
+    return fmt::format("there is no option \"{}\"{}; a command comes first: stillhook COMMAND, one of {}",
+                       words.front(), did_you_mean(words.front(), options_of(app)), fmt::join(verbs, ", "));
   if (word == words.end())
     return fmt::format("a command is missing: stillhook COMMAND, one of {}", fmt::join(verbs, ", "));
   const std::string hint = did_you_mean(*word, verbs);

@@ -17,7 +17,8 @@ const std::string kLift = std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/ca
 
 /// Exit code of a shell command; $S is the program.
 int shell(const Folder& folder, const std::string& command) {
-  const std::string all = "cd '" + folder.path.string() + "' && S='" STILLHOOK_PROGRAM "' && { " + command + "; } 2> err.txt";
+  const std::string all =
+      "cd '" + folder.path.string() + "' && S='" STILLHOOK_PROGRAM "' && { " + command + "; } 2> err.txt";
   const int status = std::system(("bash -c \"" + all + "\"").c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
@@ -37,8 +38,10 @@ TEST_CASE("a wrong command or option is answered with the nearest right one") {
   CHECK_THAT(fault({"frobnicate"}), Contains("there is no command \"frobnicate\".") && Contains("fit"));
   CHECK_THAT(fault({"lift.toml"}), Contains("stillhook check lift.toml"));
   CHECK_THAT(fault({}), Contains("a command is missing") && Contains("simulate"));
-  CHECK_THAT(fault({"--thread", "1"}), Contains("there is no command \"1\"") || Contains("there is no option \"--thread\""));
-  CHECK_THAT(fault({"simulate", kLift, "--thread", "1"}), Contains("simulate: there is no option \"--thread\", did you mean \"--threads\"?"));
+  CHECK_THAT(fault({"--thread", "1"}),
+             Contains("there is no command \"1\"") || Contains("there is no option \"--thread\""));
+  CHECK_THAT(fault({"simulate", kLift, "--thread", "1"}),
+             Contains("simulate: there is no option \"--thread\", did you mean \"--threads\"?"));
   CHECK_THAT(fault({"check", kLift, "b.toml"}), Contains("check: does not take \"b.toml\""));
   CHECK_THAT(fault({"simulate"}), Contains("simulate: CASE"));
   CHECK(run(folder, {"check", kLift, "--threads", "1"}).code == 0);
@@ -49,10 +52,10 @@ TEST_CASE("output that does not arrive is no success") {
   const Folder folder;
   fs::copy_file(kLift, folder / "lift.toml");
   REQUIRE(shell(folder, "$S simulate lift.toml --out run > /dev/null") == 0);
-  for (const std::string verb : {"check lift.toml", "check lift.toml --json", "simulate lift.toml --force", "report run",
-                                 "export run --csv --out -", "export run --csv --force", "schema", "schema --metrics",
-                                 "man", "completion bash", "--help", "--version", "plan --help",
-                                 "plan lift.toml --evaluations 2 --force"}) {
+  for (const std::string verb :
+       {"check lift.toml", "check lift.toml --json", "simulate lift.toml --force", "report run",
+        "export run --csv --out -", "export run --csv --force", "schema", "schema --metrics", "man", "completion bash",
+        "--help", "--version", "plan --help", "plan lift.toml --evaluations 2 --force"}) {
     CAPTURE(verb);
     CHECK(shell(folder, "$S " + verb + " > /dev/full") == 2);
     CHECK_THAT(content(folder / "err.txt"), Contains("No space left on device"));

@@ -1,5 +1,5 @@
-// CSV as programs write it: what is read, and what is refused with which sentence. The texts are our own, in the dialects of
-// spreadsheets in several languages, loggers and instrument programs.
+// CSV as programs write it: what is read, and what is refused with which sentence. The texts are our own, in the
+// dialects of spreadsheets in several languages, loggers and instrument programs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -38,25 +38,24 @@ const Values kTwoRows = {{0.0, 0.1}, {0.5, -1.25}};
 
 TEST_CASE("dialects of CSV that all say the same", "[csv]") {
   const Csv csv;
-  for (const std::string text : {
-           "t,z\n0,0.5\n0.1,-1.25\n",
-           "\xEF\xBB\xBFt;z\r\n0,0;0,5\r\n0,1;-1,25\r\n",           // Excel's "CSV UTF-8", German
-           "t\tz\n0,0\t0,5\n0,1\t-1,25\n",                          // tabs, decimal commas
-           "t z\n0,0 0,5\n0,1 -1,25\n",                             // blanks, decimal commas
-           "\"t\",\"z\"\n\"0,0\",\"0,5\"\n\"0,1\",\"-1,25\"\n",       // all quoted, decimal commas
-           "\"t\",\"z\"\n\"0\",\"0.5\"\n\"0.1\",\"-1.25\"\n",         // all quoted, points
-           "t,\"Heave, m\",z\n0,1,0.5\n0.1,1,-1.25\n",              // a comma in a name
-           "t,\"says \"\"up\"\"\",z\n0,1,0.5\n0.1,1,-1.25\n",       // quotes in a name
-           "t,\"two\nlines\",z\n0,1,0.5\n0.1,1,-1.25\n",            // a line break in a name
-           "sep=;\nt;z\n0;0.5\n0.1;-1.25\n",                        // Excel's own remark
-           "t;z;\n0;0.5;\n0.1;-1.25;\n",                            // a separator ends each row
-           "t;z\n0;0.5;\n0.1;-1.25;;\n",                            // only rows of numbers
-           "t,z\rs,m\r0,0.5\r0.1,-1.25\r",                          // line ends of an old Macintosh
-           "# note\n\n  t , z \n 0 , +5e-1 \n\n0.1,-1.25",          // blanks, no last line end
-           "t;z\n[s];[m]\n0,0;0,5\n0,1;-1,25\n",                    // a line of units
-           "t,z\ns,1\n0,0.5\n0.1,-1.25\n",                          // with a pure number
-           "z;t\nm;s\n0,5;0,0\n-1,25;0,1\n",                        // in another order
-           "t\tz\n0,0E+00\t5,0E-01\n1,0E-01\t-1,25E+00\n"}) {
+  for (const std::string text : {"t,z\n0,0.5\n0.1,-1.25\n",
+                                 "\xEF\xBB\xBFt;z\r\n0,0;0,5\r\n0,1;-1,25\r\n",        // Excel's "CSV UTF-8", German
+                                 "t\tz\n0,0\t0,5\n0,1\t-1,25\n",                       // tabs, decimal commas
+                                 "t z\n0,0 0,5\n0,1 -1,25\n",                          // blanks, decimal commas
+                                 "\"t\",\"z\"\n\"0,0\",\"0,5\"\n\"0,1\",\"-1,25\"\n",  // all quoted, decimal commas
+                                 "\"t\",\"z\"\n\"0\",\"0.5\"\n\"0.1\",\"-1.25\"\n",    // all quoted, points
+                                 "t,\"Heave, m\",z\n0,1,0.5\n0.1,1,-1.25\n",           // a comma in a name
+                                 "t,\"says \"\"up\"\"\",z\n0,1,0.5\n0.1,1,-1.25\n",    // quotes in a name
+                                 "t,\"two\nlines\",z\n0,1,0.5\n0.1,1,-1.25\n",         // a line break in a name
+                                 "sep=;\nt;z\n0;0.5\n0.1;-1.25\n",                     // Excel's own remark
+                                 "t;z;\n0;0.5;\n0.1;-1.25;\n",                         // a separator ends each row
+                                 "t;z\n0;0.5;\n0.1;-1.25;;\n",                         // only rows of numbers
+                                 "t,z\rs,m\r0,0.5\r0.1,-1.25\r",                       // line ends of an old Macintosh
+                                 "# note\n\n  t , z \n 0 , +5e-1 \n\n0.1,-1.25",       // blanks, no last line end
+                                 "t;z\n[s];[m]\n0,0;0,5\n0,1;-1,25\n",                 // a line of units
+                                 "t,z\ns,1\n0,0.5\n0.1,-1.25\n",                       // with a pure number
+                                 "z;t\nm;s\n0,5;0,0\n-1,25;0,1\n",                     // in another order
+                                 "t\tz\n0,0E+00\t5,0E-01\n1,0E-01\t-1,25E+00\n"}) {
     CAPTURE(text);
     CHECK(csv.values(text) == kTwoRows);
   }
@@ -71,8 +70,8 @@ TEST_CASE("a row says where it stands in the file, quoted line breaks and commen
 
 TEST_CASE("cells that say that there is nothing are gaps", "[csv]") {
   const Csv csv;
-  for (const std::string cell : {"", "NaN", "nan", "-NaN", "NA", "N/A", "#N/A", "null", "None", "-", "--", "inf", "-Inf",
-                                 "Infinity", "1.#QNAN", "-1.#IND", "\"\"", "missing"}) {
+  for (const std::string cell : {"", "NaN", "nan", "-NaN", "NA", "N/A", "#N/A", "null", "None", "-", "--", "inf",
+                                 "-Inf", "Infinity", "1.#QNAN", "-1.#IND", "\"\"", "missing"}) {
     CAPTURE(cell);
     const Values values = csv.values("t,z\n0,1.5\n1," + cell + "\n2,2.5\n");
     CHECK(std::isnan(values[1][1]));
@@ -102,7 +101,8 @@ TEST_CASE("commas that may mean two things are not guessed", "[csv]") {
   CHECK_THAT(csv.fault("t;z\n0;1,2,3\n"), Contains("is no number: \"1,2,3\""));
   CHECK_THAT(csv.fault("t;z\n0;1,\n"), Contains("is no number: \"1,\""));
   // Commas between the cells and in the numbers: more cells than names.
-  CHECK_THAT(csv.fault("t,z\n0,0,0,5\n"), Contains("x.csv:2: has 4 cells, the names say 2; numbers with decimal commas"));
+  CHECK_THAT(csv.fault("t,z\n0,0,0,5\n"),
+             Contains("x.csv:2: has 4 cells, the names say 2; numbers with decimal commas"));
   CHECK(csv.values("t;z\n0;1,234\n1;2,345\n")[1][0] == 1.234);  // between semicolons the comma is the decimal one
 }
 
@@ -110,7 +110,8 @@ TEST_CASE("numbers that are none", "[csv]") {
   const Csv csv;
   for (const std::string cell : {"1e999", "1.0D-03", "0x10", "+-5", "--5", "1 234", "5%", "1.2.3", "on", "e5", "."}) {
     CAPTURE(cell);
-    CHECK_THAT(csv.fault("t,z\n0,1\n1," + cell + "\n"), Contains("x.csv:3: column \"z\": is no number: \"" + cell + "\""));
+    CHECK_THAT(csv.fault("t,z\n0,1\n1," + cell + "\n"),
+               Contains("x.csv:3: column \"z\": is no number: \"" + cell + "\""));
   }
 }
 

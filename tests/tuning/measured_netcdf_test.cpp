@@ -78,11 +78,10 @@ TEST_CASE("a gap is what the variable says: fill value, missing value, range, de
       number(f, v, "valid_max", NC_DOUBLE, 10.0);
     });
     // A tenth of a millimetre by the unit, 5 m off zero; NetCDF's own fill value of the type where nothing was written.
-    file.variable("packed", NC_SHORT, {0.0, -32767.0, 100.0, -50.0},
-                  [](int f, int v) {
-                    number(f, v, "scale_factor", NC_DOUBLE, 0.1);
-                    number(f, v, "add_offset", NC_DOUBLE, 5.0);
-                  });
+    file.variable("packed", NC_SHORT, {0.0, -32767.0, 100.0, -50.0}, [](int f, int v) {
+      number(f, v, "scale_factor", NC_DOUBLE, 0.1);
+      number(f, v, "add_offset", NC_DOUBLE, 5.0);
+    });
     file.variable("unwritten", NC_DOUBLE, {});
   }
   const MeasuredTable table =
@@ -111,7 +110,8 @@ TEST_CASE("variables are found by their channel, as in history.nc", "[netcdf]") 
   }
   CHECK(read_measured_table(path, {"time", "ship.roll"}).values[1] == std::vector<double>{0.5, 0.25});
   CHECK(read_measured_table(path, {"time", "ship_roll"}).values[1] == std::vector<double>{0.5, 0.25});
-  CHECK_THAT(fault_of(path, {"time", "ship.rol"}), Contains("has no variable \"ship.rol\", did you mean \"ship.roll\"?"));
+  CHECK_THAT(fault_of(path, {"time", "ship.rol"}),
+             Contains("has no variable \"ship.rol\", did you mean \"ship.roll\"?"));
 }
 
 TEST_CASE("variables that are no column are refused", "[netcdf]") {
@@ -162,8 +162,10 @@ TEST_CASE("what a file says of its units must be what the case says", "[netcdf][
   };
   CHECK(complaint("s", "deg") == "no complaint");
   CHECK(complaint("seconds since 2024-05-01 00:00:00", "degree_of_something") == "no complaint");
-  CHECK_THAT(complaint("s", "rad"), Contains("variable \"roll\" is in rad by its attribute units") && Contains("says deg"));
-  CHECK_THAT(complaint("minutes since 2024-05-01", "deg"), Contains("variable \"t\" is in \"minutes since") && Contains("time_unit"));
+  CHECK_THAT(complaint("s", "rad"),
+             Contains("variable \"roll\" is in rad by its attribute units") && Contains("says deg"));
+  CHECK_THAT(complaint("minutes since 2024-05-01", "deg"),
+             Contains("variable \"t\" is in \"minutes since") && Contains("time_unit"));
 }
 
 TEST_CASE("no damage to a file ends the program", "[netcdf]") {
