@@ -39,9 +39,9 @@ std::string verdict_of(const Identification& result) {
 ReportTable estimate_table(const Identification& result) {
   ReportTable t;
   t.title = "Estimates";
-  t.note = "Intervals of 95 %; sd in percent of the estimate; widened: how many times wider than for white residuals, because "
-           "these follow one another (see docs/fitting.md).";
-  t.header = {"parameter", "start", "estimate", "95 % interval", "sd, %", "widened", "bounds", "started from"};
+  t.note = "Intervals of 95 %; sd in percent of the estimate; widened by: factor on the interval because the residuals are "
+           "correlated in time (see docs/fitting.md).";
+  t.header = {"parameter", "start", "estimate", "95 % interval", "sd, %", "widened by", "bounds", "started from"};
   for (const FitEstimate& e : result.estimates)
     t.rows.push_back({with_unit(e.spec.key, e.unit), short_number(e.start), short_number(e.value), interval_text(e),
                       std::isnan(e.sd) ? "-" : cell(100.0 * e.sd / std::abs(e.value), 1), cell(e.sd / e.white_sd, 1),

@@ -45,7 +45,7 @@ struct HydroSet {
 /// The hulls float where the case's static equilibrium has them. Throws CaseError.
 std::vector<HydroSet> planned_sets(const Case& c);
 
-/// Computes a planned set, or takes it from the cache. Throws CaseError, and std::runtime_error("interrupted") when
+/// Computes a planned set, or takes it from the cache. Throws CaseError, and Interrupted when
 /// progress ends it.
 void compute_set(const Case& c, HydroSet& set, const HydroProgress& progress);
 

@@ -10,6 +10,7 @@
 
 #include "planner/version.h"
 #include "problems/case_document.h"
+#include "problems/case_sections.h"
 #include "problems/search/random_search.h"
 
 namespace stillhook {
@@ -188,7 +189,8 @@ SearchOptions search_options(const PlanSpec& plan) {
 
 StoreIdentity store_identity(const Case& c) {
   Node document = parse_document(c.resolved, c.file);
-  document.remove("tune");
+  for (const CaseSection& section : case_sections())
+    if (!section.stored) document.remove(section.key);
   if (Node* plan = document.find("plan")) {
     for (const char* key :
          {"evaluations", "time_budget_s", "seed", "global_share", "global_algorithm", "local_algorithm",

@@ -25,7 +25,7 @@ std::string ReportPage::html(const std::string& title, const std::string& style,
 
 std::string warnings_html(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return {};
-  std::string out = "<div class=\"verdict warn\"><b>To be known</b><ul>";
+  std::string out = "<div class=\"verdict warn\"><b>Warnings</b><ul>";
   for (const std::string& warning : warnings) out += "<li>" + escape_html(warning) + "</li>";
   return out + "</ul></div>";
 }

@@ -19,7 +19,7 @@ class ReportPage {
   std::string nav_, body_;
 };
 
-/// "To be known": a box of sentences, or nothing.
+/// "Warnings": a box of sentences, or nothing.
 std::string warnings_html(const std::vector<std::string>& warnings);
 
 }  // namespace stillhook

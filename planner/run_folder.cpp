@@ -45,11 +45,20 @@ bool holds_a_run(const fs::path& path) {
   return fs::exists(path / "case.toml") || fs::exists(path / "summary.json") || fs::exists(path / "evaluations.sqlite");
 }
 
-void prepare(const fs::path& path, RunFolder::Mode mode) {
+FolderLock opened(const fs::path& path, RunFolder::Mode mode) {
   const std::string name = path.string();
   const bool exists = fs::exists(path);
   if (exists && !fs::is_directory(path)) throw UsageError(name + ": is a file, a run needs a folder");
-  const bool occupied = exists && !fs::is_empty(path);
+  const bool only_goes_on = mode == RunFolder::Mode::resume || mode == RunFolder::Mode::read;
+  if (!exists && only_goes_on) throw UsageError(name + ": does not exist, there is nothing to resume");
+  fs::create_directories(path);
+  return mode == RunFolder::Mode::read ? FolderLock() : FolderLock(name);
+}
+
+/// Makes room for the run. The folder is locked: nobody else is in it.
+void prepare(const fs::path& path, RunFolder::Mode mode) {
+  const std::string name = path.string();
+  const bool occupied = !fs::is_empty(path);
   switch (mode) {
     case RunFolder::Mode::fresh:
       if (occupied) throw UsageError(name + ": exists already; use --force to replace the run in it, or another --out");
@@ -66,10 +75,9 @@ void prepare(const fs::path& path, RunFolder::Mode mode) {
       }
       break;
     case RunFolder::Mode::resume:
-      if (!exists) throw UsageError(name + ": does not exist, there is nothing to resume");
+    case RunFolder::Mode::read:
       break;
   }
-  fs::create_directories(path);
 }
 
 }  // namespace
@@ -77,6 +85,7 @@ void prepare(const fs::path& path, RunFolder::Mode mode) {
 RunFolder::RunFolder(std::string path, Mode mode) : path_(std::move(path)) {
   while (path_.size() > 1 && path_.back() == '/') path_.pop_back();
   try {
+    lock_ = opened(path_, mode);
     prepare(path_, mode);
   } catch (const fs::filesystem_error& error) {
     throw UsageError(path_ + ": " + error.code().message());

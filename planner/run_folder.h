@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/folder_lock.h"
 #include "problems/case.h"
 
 namespace stillhook {
@@ -21,11 +22,13 @@ class RunFolder {
   enum class Mode {
     fresh,    // must not exist yet (or be empty)
     replace,  // what a former run left in it is removed; other files stay
-    resume    // must exist and is gone on with
+    resume,   // must exist and is gone on with
+    read      // must exist; nothing of the run itself is written
   };
 
-  /// Makes or opens the folder. Throws UsageError: it exists (fresh), holds something that is no run (replace), does
-  /// not exist (resume), or cannot be made.
+  /// Makes or opens the folder and, but for `read`, locks it as long as this object lives. Throws UsageError: it exists
+  /// (fresh), holds something that is no run (replace), does not exist (resume, read), cannot be made, or another process
+  /// writes into it.
   RunFolder(std::string path, Mode mode);
 
   const std::string& path() const { return path_; }
@@ -44,6 +47,7 @@ class RunFolder {
 
  private:
   std::string path_;
+  FolderLock lock_;
 };
 
 /// runs/<case>-<verb>

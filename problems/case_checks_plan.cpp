@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
@@ -34,10 +35,21 @@ class PlanCheck {
 
   void wants_metric(const std::string& entry, const std::string& metric) {
     if (metric_exists(metric, case_.specification)) return;
-    const auto near = nearest(metric, metric_names(case_.specification));
-    report(entry, "",
-           fmt::format("there is no metric \"{}\" in this lift{}", metric,
-                       near ? fmt::format(", did you mean \"{}\"?", *near) : std::string()));
+    report(entry, "", fmt::format("there is no metric \"{}\" in this lift{}", metric, metrics_instead(metric)));
+  }
+
+  /// The nearest names; without one all that belong to no element.
+  std::string metrics_instead(const std::string& metric) const {
+    const std::vector<std::string> names = metric_names(case_.specification);
+    if (const auto near = nearest(metric, names)) return fmt::format(", did you mean \"{}\"?", *near);
+    std::vector<std::string> some;
+    const std::string first_word = metric.substr(0, metric.find_first_of("._"));
+    for (const std::string& name : names)
+      if (name.find(first_word) != std::string::npos) some.push_back(name);
+    if (some.empty())
+      for (const std::string& name : names)
+        if (name.find('.') == std::string::npos) some.push_back(name);
+    return fmt::format("; there are {} (`stillhook schema --metrics` explains all)", fmt::join(some, ", "));
   }
 
   void check_limit(const LimitSpec& limit) {

@@ -3,6 +3,7 @@
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
+#include "problems/case_sections.h"
 
 namespace stillhook {
 namespace {
@@ -16,7 +17,7 @@ class VariedKeyCheck {
     const bool ordered = varied_.lower < varied_.upper;
     if (!ordered) report("min", fmt::format("must be < max {:.6g}, got {:.6g}", varied_.upper, varied_.lower));
     const std::vector<std::string> steps = steps_of(varied_.key);
-    if (steps.front() == "plan" || steps.front() == "limits" || steps.front() == "solver" || steps.front() == "fit")
+    if (!may_be_varied(steps.front()))
       return report("", fmt::format("must be a key of the lift, not of [{}]", steps.front()));
     try {
       Node copy = root_;

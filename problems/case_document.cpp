@@ -184,6 +184,34 @@ void write_table(const Node& table, const std::string& path, std::string& out) {
   }
 }
 
+/// Line of the header "[name]" or "[[name]]", or of a key "name =", before `before`; 0 if there is none.
+int first_line_of(const std::string& text, const std::string& name, int before) {
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line) && ++number < before;) {
+    std::string bare;
+    for (const char c : line.substr(0, line.find('#')))
+      if (c != ' ' && c != '\t' && c != '[' && c != ']' && c != '"' && c != '\r') bare += c;
+    const bool header = line.find_first_not_of(" \t") != std::string::npos && line[line.find_first_not_of(" \t")] == '[';
+    const bool same_header = header && (bare == name || bare.ends_with("." + name));
+    if (same_header || (!header && bare.starts_with(name + "="))) return number;
+  }
+  return 0;
+}
+
+/// What the parser objects to, as a user would say it.
+std::string parse_fault(const std::string& text, const std::string& description, int line) {
+  // "... cannot redefine existing table 'operation'": TOML allows a table or a key once.
+  const std::size_t again = description.find("cannot redefine existing "), quote = description.find('\'');
+  if (again == std::string::npos || quote == std::string::npos) return "is not TOML: " + description;
+  const std::string name = description.substr(quote + 1, description.rfind('\'') - quote - 1);
+  const bool table = description.find(" table header") != std::string::npos;
+  const int first = first_line_of(text, name, line);
+  return fmt::format("{} stands twice{}: {}", table ? "the table [" + name + "]" : "the key \"" + name + "\"",
+                     first > 0 ? fmt::format(", first in line {}", first) : std::string(),
+                     table ? "put its keys together under one" : "remove one of them");
+}
+
 }  // namespace
 
 Node* Node::find(const std::string& key) {
@@ -242,8 +270,9 @@ Node parse_document(const std::string& text, const std::string& name) {
   try {
     return convert(toml::parse(text, name), {});
   } catch (const toml::parse_error& error) {
-    throw CaseError(fmt::format("{}:{}:{}: is not TOML: {}", name, error.source().begin.line,
-                                error.source().begin.column, error.description()));
+    const auto line = static_cast<int>(error.source().begin.line);
+    throw CaseError(fmt::format("{}:{}:{}: {}", name, line, error.source().begin.column,
+                                parse_fault(text, std::string(error.description()), line)));
   }
 }
 

@@ -9,6 +9,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include "problems/not_modelled.h"
+
 namespace stillhook {
 namespace {
 
@@ -256,8 +258,10 @@ void TableReader::read_text(const Field& field, Node& value, void* object, const
     return refuse("may have letters, digits, _ and - only, got " + short_value(value));
   if (field.type == Field::Type::choice &&
       std::find(field.choices.begin(), field.choices.end(), value.text) == field.choices.end()) {
-    return refuse(fmt::format("must be one of \"{}\", got {}{}", fmt::join(field.choices, "\", \""), short_value(value),
-                              did_you_mean(value.text, field.choices)));
+    const std::string missing = not_modelled(value.text);
+    return refuse(fmt::format("{} \"{}\", got {}{}", field.choices.size() == 1 ? "can only be" : "must be one of",
+                              fmt::join(field.choices, "\", \""), short_value(value),
+                              missing.empty() ? did_you_mean(value.text, field.choices) : "; " + missing));
   }
   if (field.type == Field::Type::file) {
     const std::string path = field.may_be_missing ? absolute_file(value.text) : existing_file(value.text);

@@ -9,6 +9,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include "problems/not_modelled.h"
+
 namespace stillhook {
 namespace {
 
@@ -116,6 +118,34 @@ std::vector<std::string> same_quantity(const Table& table, const std::string& ke
   return keys;
 }
 
+/// Symbols by which the field calls quantities whose keys have whole words.
+constexpr std::pair<const char*, const char*> kSymbols[] = {
+    {"hs", "significant_height"}, {"hm0", "significant_height"}, {"tp", "peak_period"},
+    {"tz", "peak_period"},        {"t02", "peak_period"},        {"h", "height"},
+    {"t", "period"},              {"dir", "heading"},            {"direction", "heading"},
+    {"ea", "axial_stiffness"},    {"mbl", "breaking_load"},      {"dt", "time_step"}};
+
+/// The zero-crossing period is shorter than the peak period: to call one by the other's name would be a wrong sea.
+bool is_zero_crossing(const std::string& key) {
+  const std::string word = key.substr(0, key.find('_'));
+  return word == "tz" || word == "Tz" || word == "t02" || word == "T02";
+}
+
+/// The key that a symbol with or without a unit stands for, "hs_m" for "significant_height_m"; empty if there is none.
+std::string by_symbol(const Table& table, const std::string& key) {
+  std::string lower = key;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const auto& [symbol, base] : kSymbols) {
+    const std::string with_unit = std::string(symbol) + "_";
+    const bool is_symbol =
+        lower == symbol || (lower.starts_with(with_unit) && looks_like_unit(lower.substr(with_unit.size())));
+    if (!is_symbol) continue;
+    for (const Field& field : table.fields)
+      if (base_of(field) == base) return field.key;
+  }
+  return {};
+}
+
 std::vector<std::string> keys_of(const Table& table) {
   std::vector<std::string> keys;
   for (const Field& field : table.fields) keys.push_back(field.key);
@@ -126,6 +156,8 @@ std::vector<std::string> keys_of(const Table& table) {
 
 std::vector<std::string> meant_keys(const Table& table, const std::string& key) {
   std::vector<std::string> keys = same_quantity(table, key);
+  if (!keys.empty() || !not_modelled(key).empty()) return keys;
+  if (const std::string meant = by_symbol(table, key); !meant.empty()) return {meant};
   if (const auto near = nearest(key, keys_of(table)); keys.empty() && near) keys.push_back(*near);
   return keys;
 }
@@ -138,7 +170,13 @@ std::string unknown_key_sentence(const Table& table, const std::string& key) {
     const std::string list = fmt::format("\"{}\"", fmt::join(same, "\" or \""));
     return without_unit ? "the key must carry its unit: write " + list : "wrong unit in the key: write " + list;
   }
+  if (const std::string missing = not_modelled(key); !missing.empty()) return "unknown key: " + missing;
   const std::vector<std::string> known = keys_of(table);
+  if (const std::string meant = by_symbol(table, key); !meant.empty())
+    return fmt::format("unknown key, did you mean \"{}\"?{}", meant,
+                       is_zero_crossing(key) ? " It is not Tz: Tp is 1.286 Tz for JONSWAP with gamma 3.3, 1.405 Tz for "
+                                               "Pierson-Moskowitz"
+                                             : "");
   if (const auto near = nearest(key, known)) return fmt::format("unknown key, did you mean \"{}\"?", *near);
   return fmt::format("unknown key, known are {}", fmt::join(known, ", "));
 }

@@ -3,6 +3,7 @@
 #include "results/archive_layout.h"
 #include "results/files.h"
 #include "results/netcdf_file.h"
+#include "results/sealed_file.h"
 #include "results/summary.h"
 #include "sim/samples.h"
 
@@ -77,6 +78,7 @@ void write_archive(const Trajectory& trajectory, const ArchiveTitle& title, cons
   write_contacts(file, trajectory);
   write_static_poses(file, trajectory.static_poses);
   file.close();
+  seal_file(pending.temporary(), path);
   pending.commit();
 }
 

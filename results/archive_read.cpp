@@ -7,6 +7,8 @@
 #include "results/archive_layout.h"
 #include "results/files.h"
 #include "results/netcdf_file.h"
+#include "results/safe_netcdf.h"
+#include "results/sealed_file.h"
 #include "results/summary.h"
 #include "sim/samples.h"
 
@@ -177,10 +179,8 @@ void read_static_poses(const NetcdfFile& file, Trajectory& run) {
       if (present[p * keys + k]) run.static_poses[p].values[names[k]] = values[p * keys + k];
 }
 
-}  // namespace
-
-Trajectory open_archive(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw FileError(path + ": cannot be read: there is no such file");
+/// Opens a file that can be trusted.
+Trajectory open_whole(const std::string& path) {
   const auto file = std::make_shared<const NetcdfFile>(path, NetcdfFile::Mode::read, path);
   Trajectory run;
   const std::string status = file->text(NC_GLOBAL, "status");
@@ -201,11 +201,28 @@ Trajectory open_archive(const std::string& path) {
   return run;
 }
 
-Trajectory read_archive(const std::string& path) {
-  Trajectory run = open_archive(path);
-  if (!run.source) return run;
+void take_all_samples(Trajectory& run) {
+  if (!run.source) return;
   for (std::size_t c = 0; c < run.channels.size(); ++c) run.values.push_back(run.source->series(c));
   run.source.reset();
+}
+
+}  // namespace
+
+Trajectory open_archive(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(path + ": cannot be read: there is no such file");
+  if (has_good_seal(path)) return open_whole(path);
+  // The file of a run that was killed, or of another program.
+  try_reading(path, [&path] {
+    Trajectory run = open_whole(path);
+    take_all_samples(run);
+  });
+  return open_whole(path);
+}
+
+Trajectory read_archive(const std::string& path) {
+  Trajectory run = open_archive(path);
+  take_all_samples(run);
   return run;
 }
 

@@ -73,7 +73,10 @@ int NetcdfFile::define(const std::string& name, nc_type type, const std::vector<
 }
 
 void NetcdfFile::lay_out(int variable, nc_type type, Storage storage) {
-  if (storage == Storage::compressed) check(nc_def_var_deflate(id_, variable, 1, 1, 2), "compression");
+  if (storage == Storage::compressed) {
+    check(nc_def_var_deflate(id_, variable, 1, 1, 2), "compression");
+    check(nc_def_var_fletcher32(id_, variable, NC_FLETCHER32), "checksum");  // other programs, too, then see damage
+  }
   if (storage != Storage::whole) return;
   check(nc_def_var_chunking(id_, variable, NC_CONTIGUOUS, nullptr), "layout");
   if (type != NC_DOUBLE) return;

@@ -47,7 +47,7 @@ std::string statement(const ReportData& data) {
 
 std::string warnings(const ReportData& data) {
   if (data.warnings.empty()) return {};
-  std::string out = "<div class=\"verdict warn\"><b>To be known</b><ul>";
+  std::string out = "<div class=\"verdict warn\"><b>Warnings</b><ul>";
   for (const std::string& warning : data.warnings) out += "<li>" + escape_html(warning) + "</li>";
   return out + "</ul></div>";
 }

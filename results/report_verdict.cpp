@@ -37,10 +37,11 @@ std::string governing_sentence(const ReportData& data) {
   const LimitCheck* governing = governing_check(data.limits);
   if (!governing) return "<p>The case sets no limits.</p>";
   const MetricDefinition* definition = metric_definition(governing->metric);
-  const std::string name =
-      "<b>" + escape_html(governing->metric) + "</b>" + (definition ? ", " + escape_html(definition->description) : "");
+  // The meaning first, then the name that the case gives it.
+  const std::string key = "<code>" + escape_html(governing->metric) + "</code>";
+  const std::string name = definition ? "<b>" + escape_html(definition->description) + "</b> (" + key + ")" : key;
   if (!std::isfinite(governing->value))
-    return fmt::format("<p>Governing: {}. It has no value in this run, so it cannot be shown to be kept.</p>", name);
+    return fmt::format("<p>Governing limit: {}. It has no value in this run, so it cannot be shown to be kept.</p>", name);
   std::string when;
   if (!governing->phase.empty()) when += " in " + escape_html(readable_name(governing->phase));
   if (!governing->scenario.empty()) when += " in scenario " + escape_html(governing->scenario);
@@ -48,7 +49,7 @@ std::string governing_sentence(const ReportData& data) {
   std::string share;
   if (governing->limit != 0.0 && std::isfinite(relative_margin(*governing)))
     share = fmt::format(", a margin of {} %", fixed_number(100.0 * relative_margin(*governing), 0));
-  return fmt::format("<p>Governing: {}: <b>{}</b>, {} {}{}{}.</p>", name,
+  return fmt::format("<p>Governing limit: {}: <b>{}</b>, {} {}{}{}.</p>", name,
                      value_with_unit(governing->metric, governing->unit, governing->value),
                      governing->is_max ? "limit" : "at least",
                      value_with_unit(governing->metric, governing->unit, governing->limit), share, when);

@@ -15,6 +15,7 @@ constexpr int kMaxFrequencySteps = 60;
 constexpr double kFrequencyTolerance = 1e-6;   // of a frequency, relative
 constexpr double kSlowest = 1e-3;     // rad/s: below this a motion has no restoring stiffness
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRedundant = 1e-10;  // of the largest constraint: beyond rounding, far below any lever arm
 constexpr double kNamedShare = 0.15;  // of the kinetic energy: what a label names
 
 struct Eigensystem {
@@ -104,9 +105,12 @@ std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium) const {
   if (system.constraints() > 0) {
     MatrixX C_q;
     system.constraint_jacobian(state, C_q);
-    const Eigen::HouseholderQR<MatrixX> qr(C_q.transpose());
-    Z = MatrixX(qr.householderQ()).rightCols(system.coordinates() - system.constraints());
+    // Constraints may say the same twice, as two clamps of one body do: their rank counts.
+    Eigen::ColPivHouseholderQR<MatrixX> qr(C_q.transpose());
+    qr.setThreshold(kRedundant);
+    Z = MatrixX(qr.householderQ()).rightCols(system.coordinates() - qr.rank());
   }
+  if (Z.cols() == 0) return {};  // nothing can move
   MatrixX K = -Z.transpose() * work.jacobian.stiffness() * Z;
   K = (0.5 * (K + K.transpose())).eval();  // friction and winch laws apart it is symmetric in equilibrium
 
@@ -137,6 +141,7 @@ std::vector<Mode> natural_modes(const Model& model, const SystemState& equilibri
 }
 
 double period_of(const std::vector<Mode>& modes, int body, int coordinate) {
+  if (modes.empty()) return kInfinity;
   const auto less = [&](const Mode& a, const Mode& b) {
     return a.share[6 * body + coordinate] < b.share[6 * body + coordinate];
   };

@@ -6,6 +6,7 @@
 
 #include "sim/lifting/contact.h"
 #include "sim/multibody/equilibrium.h"
+#include "sim/number_text.h"
 #include "sim/statics.h"
 
 namespace stillhook {
@@ -17,12 +18,12 @@ void check_limits_of(const DriveSpec& drive, const RateProfile& profile, const s
   constexpr double kSlack = 1.0 + 1e-9;  // a profile may use its drive's limits to the full
   if (drive.speed_max > 0.0 && profile.peak_rate() > drive.speed_max * kSlack)
     throw SpecificationError(entry, "speed",
-                             "drive '" + drive.name + "' is limited to " + std::to_string(drive.speed_max) +
-                                 " per s, the profile needs " + std::to_string(profile.peak_rate()));
+                             "drive '" + drive.name + "' is limited to " + number_text(drive.speed_max) +
+                                 " per s, the profile needs " + number_text(profile.peak_rate()));
   if (drive.acceleration_max > 0.0 && profile.peak_acceleration() > drive.acceleration_max * kSlack)
     throw SpecificationError(entry, "ramp",
-                             "drive '" + drive.name + "' is limited to " + std::to_string(drive.acceleration_max) +
-                                 " per s2, the profile needs " + std::to_string(profile.peak_acceleration()) +
+                             "drive '" + drive.name + "' is limited to " + number_text(drive.acceleration_max) +
+                                 " per s2, the profile needs " + number_text(profile.peak_acceleration()) +
                                  ": a longer ramp or a lower speed is needed");
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/multibody/hht.h"
+#include "sim/number_text.h"
 #include "sim/operation_clock.h"
 #include "sim/recorder.h"
 #include "sim/tangent_pass.h"
@@ -168,7 +169,7 @@ class Run {
   }
 
   void diverged(const std::string& what) {
-    out_.message = "diverged at t = " + std::to_string(state_.t) + " s in phase '" + out_.phases[phase()].name +
+    out_.message = "diverged at t = " + number_text(state_.t) + " s in phase '" + out_.phases[phase()].name +
                    "': " + what;
   }
 

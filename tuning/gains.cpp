@@ -129,7 +129,7 @@ OperationPart part_to_tune(const Case& c) {
   return {static_cast<int>(at - phases.begin()), tune.pose.empty() ? 0.0 : tune.hold};
 }
 
-/// Takes out of the case what its part has not: metrics that are none in a run of it.
+/// Removes objective terms and limits that this part of the operation never produces.
 std::vector<std::string> leave_out(Case& c) {
   const Evaluator trial(c);
   const std::vector<ScenarioOutcome> outcomes = trial.outcomes(trial.evaluate(trial.baseline()));

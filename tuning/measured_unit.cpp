@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -43,11 +44,30 @@ constexpr Mistake kMistakes[] = {
     {1e3 * kStandardGravity, "N", "as newtons taken for tonnes", "as tonnes taken for newtons"},
     {1e3, "N m", "as N m taken for kN m", "as kN m taken for N m"}};
 
+/// As UDUNITS, and so CF, spells them.
+struct TimeUnit {
+  std::array<const char*, 5> names;
+  double seconds;
+};
+constexpr TimeUnit kTimeUnits[] = {{{"s", "sec", "secs", "second", "seconds"}, 1.0},
+                                   {{"ms", "msec", "millisec", "millisecond", "milliseconds"}, 1e-3},
+                                   {{"min", "mins", "minute", "minutes"}, 60.0},
+                                   {{"h", "hr", "hrs", "hour", "hours"}, 3600.0},
+                                   {{"d", "day", "days"}, 86400.0}};
+
 }  // namespace
 
 std::optional<MeasuredUnit> measured_unit(const std::string& name) {
   for (const MeasuredUnit& unit : units())
     if (unit.name == name) return unit;
+  return std::nullopt;
+}
+
+std::optional<double> measured_time_unit(const std::string& text) {
+  const std::string word = text.substr(0, text.find(' '));
+  for (const auto& [names, seconds] : kTimeUnits)
+    for (const char* name : names)
+      if (name && word == name) return seconds;
   return std::nullopt;
 }
 

@@ -19,6 +19,9 @@ struct MeasuredUnit {
 std::optional<MeasuredUnit> measured_unit(const std::string& name);
 std::string known_units();
 
+/// s per unit of time, as UDUNITS spells it: "s", "minutes", "hours since 2024-01-01"; nothing for anything else.
+std::optional<double> measured_time_unit(const std::string& text);
+
 /// What it looks like when measured values are `ratio` times too large: "57.3 times too large, as degrees taken for
 /// radians"; empty if no usual mistake comes near (35 %). `si`: unit of the channel.
 std::string mistaken_unit(double ratio, const std::string& si);

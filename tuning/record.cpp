@@ -11,6 +11,7 @@
 #include "problems/field_table.h"
 #include "tuning/measured_table.h"
 #include "tuning/measured_unit.h"
+#include "tuning/sentinel.h"
 
 namespace stillhook {
 namespace {
@@ -89,6 +90,10 @@ class RecordReader {
     std::vector<std::string> names = {spec_.time_column};
     for (const MeasuredChannel& c : record_.channels) names.push_back(c.spec.column);
     table_ = read_measured_table(spec_.file, names);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      refuse_sentinels(k);
+      check_unit_of_file(k);
+    }
     std::vector<double>& t = table_.values.front();
     const double factor = spec_.time_unit * std::sqrt(spec_.model_scale);
     for (std::size_t i = 0; i < t.size(); ++i) {
@@ -101,6 +106,35 @@ class RecordReader {
       if (i > 0 && t[i] == t[i - 1])
         throw CaseError(fmt::format("{}: the clock stands still at {:.6g} s", table_.place(i), t[i]));
     }
+  }
+
+  void refuse_sentinels(std::size_t k) const {
+    const std::optional<Sentinel> sentinel = sentinel_in(table_.values[k]);
+    if (!sentinel) return;
+    throw CaseError(fmt::format("{}: column \"{}\" is {:.10g}, far from all its other values, {}: it seems to say that "
+                                "nothing was measured; leave such cells empty or write NaN",
+                                table_.place(sentinel->first), table_.names[k], sentinel->value,
+                                sentinel->count == 1 ? "in this row alone"
+                                                     : fmt::format("in {} rows", sentinel->count)));
+  }
+
+  /// A NetCDF file may say itself in which unit a variable is.
+  void check_unit_of_file(std::size_t k) const {
+    if (table_.units.size() <= k || table_.units[k].empty()) return;
+    const std::string& says = table_.units[k];
+    if (k == 0) {
+      const auto unit = measured_time_unit(says);
+      if (unit && *unit != spec_.time_unit)
+        throw CaseError(fmt::format("{}: variable \"{}\" is in \"{}\" by its attribute units, {} takes it in units of "
+                                    "{:g} s: set time_unit",
+                                    spec_.file, table_.names[k], says, entry(), spec_.time_unit));
+      return;
+    }
+    const FitColumnSpec& column = record_.channels[k - 1].spec;
+    const auto file_unit = measured_unit(says), unit = measured_unit(column.unit);
+    if (file_unit && (file_unit->si != unit->si || file_unit->factor != unit->factor))
+      throw CaseError(fmt::format("{}: variable \"{}\" is in {} by its attribute units, {} columns.{} says {}", spec_.file,
+                                  table_.names[k], says, entry(), column.channel, column.unit));
   }
 
   void cut_window() {

@@ -9,14 +9,19 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <functional>
+#include <new>
+#include <sstream>
+#include <stdexcept>
 
 #include "planner/cli/colour.h"
 #include "planner/cli/command_tree.h"
 #include "planner/cli/commands.h"
-#include "planner/cli/hydro_progress.h"
+#include "planner/cli/output.h"
+#include "planner/cli/usage_fault.h"
 #include "planner/version.h"
 #include "problems/search/store.h"
 #include "results/files.h"
+#include "sim/interrupted.h"
 
 namespace stillhook {
 namespace {
@@ -70,12 +75,16 @@ void add_case_options(CLI::App& verb, Request& r) {
   add_output_options(verb, r);
 }
 
-void add_folder_options(CLI::App& verb, Request& r) {
-  verb.add_option("--out", r.common.out, "Folder to write into (default runs/<case>-<verb>)")->type_name("DIR");
-  verb.add_flag("--force", r.common.force, "Replace the run that the folder holds");
+void add_threads_option(CLI::App& verb, Request& r) {
   verb.add_option("--threads", r.threads, "Threads to use (default: all cores); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
+}
+
+void add_folder_options(CLI::App& verb, Request& r) {
+  verb.add_option("--out", r.common.out, "Folder to write into (default runs/<case>-<verb>)")->type_name("DIR");
+  verb.add_flag("--force", r.common.force, "Replace the run that the folder holds");
+  add_threads_option(verb, r);
 }
 
 void add_run_options(CLI::App& verb, Request& r, const char* seed_help) {
@@ -137,6 +146,7 @@ void add_help_verbs(CLI::App& app, Request& r) {
 void add_verbs(CLI::App& app, Request& r) {
   CLI::App* check = app.add_subcommand("check", "Validate a case; print poses, drafts, wires, phases");
   add_case_options(*check, r);
+  add_threads_option(*check, r);
   check->callback([&r] { r.verb = [&r] { return run_check(r.common); }; });
 
   CLI::App* hydro = app.add_subcommand(
@@ -216,9 +226,20 @@ std::string exit_code_text() {
   return text + "\nstillhook COMMAND --help lists the options of a command.";
 }
 
+/// What the user can do about a computation that the machine is too small for.
+constexpr const char* kTooLittleMemory =
+    "there is too little memory for this: use fewer --threads, a longer solver.output_interval_s, coarser panels "
+    "(panel_method.refinement, hull.panel_length_m), or a machine with more of it";
+
 int run_verb(const Request& request) {
   try {
-    return request.verb();
+    return complete_output(request.verb());
+  } catch (const OutputError& error) {
+    spdlog::error("{}", error.what());
+  } catch (const std::bad_alloc&) {
+    spdlog::error(kTooLittleMemory);
+  } catch (const std::length_error&) {  // more than any machine has
+    spdlog::error(kTooLittleMemory);
   } catch (const CaseError& error) {
     spdlog::error("{}", error.what());
   } catch (const SpecificationError& error) {
@@ -229,16 +250,32 @@ int run_verb(const Request& request) {
     spdlog::error("{}", error.what());
   } catch (const FileError& error) {
     spdlog::error("{}", error.what());
+  } catch (const Interrupted&) {
+    spdlog::warn("interrupted while the panel method ran; coefficients that were complete are kept");
+    return kInterrupted;
   } catch (const std::exception& error) {
-    if (is_interruption(error)) {
-      spdlog::warn("interrupted while the panel method ran; coefficients that were complete are kept");
-      return kInterrupted;
+    if (const std::string fault = output_fault(); !fault.empty()) {
+      spdlog::error("{}", fault);
+      return kBadInput;
     }
     spdlog::critical("{}\nThis is a bug in stillhook {}; please report it with the case and the command.", error.what(),
                      kVersion);
     return kBug;
   }
   return kBadInput;
+}
+
+/// Help and version are printed by the parser.
+int help_or_version(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream text;
+  app.exit(error, text, text);
+  try {
+    fmt::print("{}", text.str());
+    return complete_output(kDone);
+  } catch (const std::exception&) {
+    fmt::print(stderr, "error: {}\n", output_fault());
+    return kBadInput;
+  }
 }
 
 }  // namespace
@@ -254,7 +291,9 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version are the only ones that succeed.
-    return app.exit(error) == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() == 0) return help_or_version(app, error);
+    fmt::print(stderr, "error: {}\n", usage_fault(app, error, {argv + 1, argv + argc}));
+    return kBadInput;
   }
   const ColourWish wish = request.colour == "always"  ? ColourWish::always
                           : request.colour == "never" ? ColourWish::never

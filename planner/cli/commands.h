@@ -83,6 +83,9 @@ int run_export(const CommonOptions& options, const ExportArguments& arguments);
 /// The case file with every --set, and what else the verb sets on top. Throws CaseError and UsageError.
 Case load_case(const CommonOptions& options, const std::vector<Override>& more = {});
 
+/// The same with `text` in place of what the case file holds.
+Case load_case_text(const CommonOptions& options, const std::string& text, const std::vector<Override>& more = {});
+
 /// The folder to write into: --out, or the default one.
 std::string folder_path(const CommonOptions& options, const Case& c, const std::string& verb);
 

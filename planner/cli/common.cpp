@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -6,7 +7,9 @@
 
 namespace stillhook {
 
-Case load_case(const CommonOptions& options, const std::vector<Override>& more) {
+namespace {
+
+std::vector<Override> overrides_of(const CommonOptions& options, const std::vector<Override>& more) {
   std::vector<Override> overrides;
   for (const std::string& set : options.sets) {
     const std::size_t equals = set.find('=');
@@ -15,7 +18,18 @@ Case load_case(const CommonOptions& options, const std::vector<Override>& more) 
     overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
   }
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return read_case(options.input, overrides);
+  return overrides;
+}
+
+}  // namespace
+
+Case load_case(const CommonOptions& options, const std::vector<Override>& more) {
+  return read_case(options.input, overrides_of(options, more));
+}
+
+Case load_case_text(const CommonOptions& options, const std::string& text, const std::vector<Override>& more) {
+  const std::string folder = std::filesystem::path(options.input).parent_path().string();
+  return read_case_text(text, options.input, folder.empty() ? "." : folder, overrides_of(options, more));
 }
 
 std::string folder_path(const CommonOptions& options, const Case& c, const std::string& verb) {

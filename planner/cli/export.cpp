@@ -26,7 +26,7 @@ std::vector<std::size_t> chosen_channels(const Trajectory& run, const std::vecto
 int run_export(const CommonOptions& options, const ExportArguments& arguments) {
   if (!arguments.csv && !arguments.xlsx) throw UsageError("export: say --csv or --xlsx");
   if (!fs::is_directory(options.input)) throw UsageError(options.input + ": there is no such folder");
-  const RunFolder folder(options.input, RunFolder::Mode::resume);
+  const RunFolder folder(options.input, RunFolder::Mode::read);
   if (!fs::exists(folder.history())) throw UsageError(folder.history() + ": is missing, there is nothing to export");
   const bool standard_output = options.out == "-";
   if (standard_output && arguments.xlsx) throw UsageError("--out -: a workbook needs a file");

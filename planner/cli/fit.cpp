@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "planner/cli/commands.h"
 #include "planner/cli/interrupt.h"
@@ -10,13 +11,17 @@
 #include "planner/cli/tables.h"
 #include "planner/fit_report.h"
 #include "results/files.h"
+#include "tuning/measured_table.h"
 
 namespace stillhook {
 namespace {
 
 std::string absolute_file(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw UsageError("--measured " + path + ": there is no such file");
-  return std::filesystem::absolute(path).lexically_normal().string();
+  if (const std::string fault = fault_of_measured_path(path); !fault.empty())
+    throw UsageError("--measured " + path + ": " + fault);
+  // Standard input may be a file by another name, which means nothing when the fit is repeated.
+  const bool other_name = path.starts_with("/dev/") || path.starts_with("/proc/");
+  return (other_name ? std::filesystem::canonical(path) : std::filesystem::absolute(path).lexically_normal()).string();
 }
 
 /// --measured RECORD=FILE goes to that record, --measured FILE to the records without a file, in order.
@@ -25,6 +30,7 @@ std::vector<Override> measured_files(const Case& c, const std::vector<std::strin
   for (const FitRecordSpec& record : c.fit.records)
     if (record.file.empty()) open.push_back(record.name);
   std::vector<Override> files;
+  std::map<std::string, std::string> taken;  // file by record
   std::size_t next = 0;
   for (const std::string& argument : measured) {
     const std::size_t equals = argument.find('=');
@@ -33,6 +39,7 @@ std::vector<Override> measured_files(const Case& c, const std::vector<std::strin
                                    [&](const FitRecordSpec& record) { return record.name == name; });
     std::string record = name;
     if (!named) {
+      while (next < open.size() && taken.count(open[next])) ++next;
       if (next < open.size())
         record = open[next++];
       else if (c.fit.records.size() == 1)
@@ -43,6 +50,11 @@ std::vector<Override> measured_files(const Case& c, const std::vector<std::strin
                                      argument));
     }
     const std::string file = absolute_file(named ? argument.substr(equals + 1) : argument);
+    const auto [first, is_new] = taken.emplace(record, file);
+    if (!is_new)
+      throw UsageError(fmt::format("--measured {}: record \"{}\" has a file already, {}; a record is one file: give it "
+                                   "once, or write another [[fit.records]]",
+                                   argument, record, first->second));
     files.push_back({"fit.records." + record + ".file", "'" + file + "'"});
   }
   return files;
@@ -67,9 +79,12 @@ int exit_code(const Identification& result) {
 
 int run_fit(const CommonOptions& options, const FitArguments& arguments) {
   const std::atomic<bool>& stop = catch_interrupts();
-  std::vector<Override> more;
-  if (!arguments.measured.empty()) more = measured_files(load_case(options), arguments.measured);
-  const Case c = load_case(options, more);
+  Case c = load_case(options);
+  if (!arguments.measured.empty()) {
+    std::vector<Override> overrides = c.overrides;
+    for (Override& file : measured_files(c, arguments.measured)) overrides.push_back(std::move(file));
+    c = read_case_text(c.text, c.file, c.directory, overrides);  // a case from a pipe can be read only once
+  }
   const std::string statement = statement_of(options.input);
   const RunFolder folder(folder_path(options, c, "fit"),
                          options.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh);

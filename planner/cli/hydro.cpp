@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "planner/cli/commands.h"
@@ -14,6 +16,7 @@
 #include "planner/natural_periods.h"
 #include "planner/run.h"
 #include "planner/text_number.h"
+#include "problems/case_document.h"
 #include "results/files.h"
 #include "sim/statics.h"
 
@@ -35,10 +38,22 @@ void announce(const HydroSet& set, const std::string& what) {
       duration_text(std::max(1.0, estimated_seconds(set))));
 }
 
+/// Coefficients do not depend on what is done with the hulls: the case may lack an operation.
+Case load_hulls(const CommonOptions& options) {
+  std::ifstream in(options.input, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.good() && text.empty()) return load_case(options);  // which says what is wrong with the file
+  const Node root = parse_document(text, options.input);
+  const Node* operation = root.find("operation");
+  if (operation && operation->find("phases")) return load_case(options);
+  const std::vector<Override> rest = {{"solver.max_duration_s", "1"}};  // a run without phases has to end somehow
+  return operation ? load_case(options, rest) : load_case_text(options, text + "\n[operation]\n", rest);
+}
+
 class HydroRun {
  public:
   HydroRun(const CommonOptions& options, const HydroArguments& arguments)
-      : options_(options), arguments_(arguments), stop_(catch_interrupts()), case_(load_case(options)) {}
+      : options_(options), arguments_(arguments), stop_(catch_interrupts()), case_(load_hulls(options)) {}
 
   int run() {
     result_.sets = planned_sets(case_);

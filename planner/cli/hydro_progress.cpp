@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <cstring>
 #include <memory>
-#include <stdexcept>
 
 namespace stillhook {
 
@@ -27,10 +25,6 @@ HydroProgress panel_method_progress(bool quiet, const std::atomic<bool>* stop) {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-}
-
-bool is_interruption(const std::exception& error) {
-  return dynamic_cast<const std::runtime_error*>(&error) && std::strcmp(error.what(), "interrupted") == 0;
 }
 
 }  // namespace stillhook

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -16,8 +15,5 @@ HydroProgress panel_method_progress(bool quiet, const std::atomic<bool>* stop = 
 
 /// Prints what a model's reader must know, one line each.
 void print_warnings(const std::vector<std::string>& warnings);
-
-/// True when an exception is that of a panel computation that the user ended.
-bool is_interruption(const std::exception& error);
 
 }  // namespace stillhook

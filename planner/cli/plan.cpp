@@ -183,7 +183,7 @@ class Conclusion {
     }
     if (result_.search.feasible) return kDone;
     if (result_.has_plan())
-      spdlog::warn("no plan within the limits was found; the best one violates the least");
+      spdlog::warn("no plan within the limits was found; the plan written is the one that violates them the least");
     else
       spdlog::warn("no plan was found: {}", summary_.message);
     return kLimitViolated;

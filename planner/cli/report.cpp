@@ -62,7 +62,7 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
 
 int run_report(const CommonOptions& options) {
   if (!std::filesystem::exists(options.input)) throw UsageError(options.input + ": there is no such folder");
-  const RunFolder folder(options.input, RunFolder::Mode::resume);
+  const RunFolder folder(options.input, RunFolder::Mode::read);
   for (const std::string& file : {folder.case_file(), folder.history()})
     if (!std::filesystem::exists(file))
       throw UsageError(file + ": is missing, this is not the folder of a finished run");

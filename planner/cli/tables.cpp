@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "planner/cli/colour.h"
 #include "planner/cli/text_table.h"
 #include "planner/text_number.h"
@@ -16,13 +18,22 @@ std::string verdict(const LimitCheck& check) {
 
 std::string yes_no(bool feasible) { return feasible ? coloured(Colour::good, "yes") : coloured(Colour::bad, "no"); }
 
+/// A pure number has no unit to show.
+std::string unit_text(const std::string& unit) { return unit == "1" ? "" : unit; }
+
+/// "daf_total (largest total hook load over static)"
+std::string metric_text(const std::string& name) {
+  const MetricDefinition* definition = metric_definition(name);
+  return definition ? name + " (" + definition->description + ")" : name;
+}
+
 std::string terms_text(const SearchSection& s) {
   TextTable table({"term", "unit", "weight / scale", "baseline", "plan", "baseline part", "plan part"});
   for (const SearchSection::Term& t : s.terms)
-    table.add({t.metric, t.unit, fmt::format("{:g} / {:g}", t.weight, t.scale), short_number(t.baseline_value),
+    table.add({t.metric, unit_text(t.unit), fmt::format("{:g} / {:g}", t.weight, t.scale), short_number(t.baseline_value),
                short_number(t.plan_value), cell(t.baseline_contribution, 4), cell(t.plan_contribution, 4)});
   table.add({"objective", "", "", "", "", cell(s.baseline_objective, 4), cell(s.plan_objective, 4)});
-  return "Objective, mean or worst of the scenarios as the case says\n" + table.text();
+  return "Objective: the weighted sum of its terms, over the scenarios as plan.aggregate says\n" + table.text();
 }
 
 std::string comparison_text(const SearchSection& s) {
@@ -52,7 +63,7 @@ std::string limits_comparison_text(const SearchSection& s) {
   for (std::size_t i = 0; i < s.plan_limits.size() && i < s.baseline_limits.size(); ++i) {
     const LimitCheck &before = s.baseline_limits[i], &after = s.plan_limits[i];
     std::vector<std::string> row = {after.metric,
-                                    after.unit,
+                                    unit_text(after.unit),
                                     fmt::format("{} {:g}", after.is_max ? "<=" : ">=", after.limit),
                                     short_number(before.value),
                                     verdict(before),
@@ -78,7 +89,8 @@ std::string metrics_text(const Metrics& metrics) {
   for (const Metric& m : metrics.items) {
     const MetricDefinition* definition = metric_definition(m.name);
     if (definition && !definition->element.empty()) continue;
-    table.add({m.name, short_number(m.value), m.unit, cell(m.time, 1), m.phase});
+    if (m.name == "event_timeouts" && m.value == 0.0) continue;  // no event was waited for in vain: nothing to tell
+    table.add({m.name, short_number(m.value), unit_text(m.unit), cell(m.time, 1), m.phase});
   }
   return "Metrics\n" + table.text();
 }
@@ -87,7 +99,7 @@ std::string limits_text(const std::vector<LimitCheck>& limits) {
   if (limits.empty()) return "The case has no limits.\n";
   TextTable table({"limit", "unit", "bound", "value", "margin", "verdict", "time s", "phase"});
   for (const LimitCheck& c : limits)
-    table.add({c.metric, c.unit, fmt::format("{} {:g}", c.is_max ? "<=" : ">=", c.limit), short_number(c.value),
+    table.add({c.metric, unit_text(c.unit), fmt::format("{} {:g}", c.is_max ? "<=" : ">=", c.limit), short_number(c.value),
                short_number(c.margin), verdict(c), cell(c.time, 1), c.phase});
   return "Limits\n" + table.text();
 }
@@ -97,8 +109,9 @@ std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& 
   if (limits.empty()) return "No limits to keep.";
   const LimitCheck* governing = governing_check(limits);
   const std::string unit = governing->unit == "1" ? "" : " " + governing->unit;
-  const std::string by = fmt::format(", governed by {}: {}{}, limit {}{}", governing->metric,
-                                     short_number(governing->value), unit, short_number(governing->limit), unit);
+  const std::string value = std::isfinite(governing->value) ? short_number(governing->value) + unit : "no value";
+  const std::string by = fmt::format(", governed by {}: {}, limit {}{}", metric_text(governing->metric), value,
+                                     short_number(governing->limit), unit);
   if (metrics.status != RunStatus::completed) return coloured(Colour::bad, "NOT COMPLETED") + by;
   return (within_limits(metrics, limits) ? coloured(Colour::good, "WITHIN LIMITS")
                                          : coloured(Colour::bad, "NOT WITHIN LIMITS")) +

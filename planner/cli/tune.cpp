@@ -51,7 +51,7 @@ int run_tune(const CommonOptions& options, const TuneArguments& arguments) {
     fmt::print("{}\n", summary_json(summary));
   } else {
     if (const std::string scope = tuning_scope(evaluator); !scope.empty()) fmt::print("{}\n", scope);
-    if (!left_out.empty()) fmt::print("Without what this part has not: {}\n", fmt::join(left_out, ", "));
+    if (!left_out.empty()) fmt::print("Left out, because this part of the operation does not have it: {}\n", fmt::join(left_out, ", "));
     fmt::print("{}\n\n{}", tuning_verdict(result), table_text(gain_table(evaluator, result)));
     if (result.schedule) fmt::print("\n{}\n", schedule_verdict(result));
     for (const ReportTable& table : {schedule_table(result), swing_table(result), winch_table(result)})

@@ -10,6 +10,7 @@
 #include "sim/hull/radiation_march.h"
 #include "sim/hull/radiation_memory.h"
 #include "sim/hull/state_space_radiation.h"
+#include "sim/number_text.h"
 
 namespace stillhook {
 namespace {
@@ -69,7 +70,7 @@ void require_physical(const Matrix6& value, bool symmetric, const BodySpec& spec
 void require_factor(double value, bool open, const BodySpec& spec, const char* field) {
   if (std::isfinite(value) && (open ? value > 0.0 : value >= 0.0)) return;
   throw SpecificationError(entry_of(spec), field,
-                           std::string("must be ") + (open ? "> 0" : ">= 0") + ", got " + std::to_string(value));
+                           std::string("must be ") + (open ? "> 0" : ">= 0") + ", got " + number_text(value));
 }
 
 /// The set's own field, for errors.

@@ -12,6 +12,7 @@
 #include "sim/hull/mesh_file.h"
 #include "sim/hull/panel_strips.h"
 #include "sim/hull/wave_window.h"
+#include "sim/number_text.h"
 
 namespace stillhook {
 
@@ -392,8 +393,8 @@ void check_resolution(const BodySpec& body, const Mesh& mesh, const WaveField& w
   const double panel = properties_of(mesh).longest_edge / std::numbers::sqrt2;
   if (length < 5.0 * panel)
     throw SpecificationError("bodies." + body.name, "hull.panel_length",
-                             "panels of " + std::to_string(panel) + " m do not resolve waves of " +
-                                 std::to_string(length) + " m; at most " + std::to_string(length / 5.0) +
+                             "panels of " + number_text(panel) + " m do not resolve waves of " +
+                                 number_text(length) + " m; at most " + number_text(length / 5.0) +
                                  " m is needed");
 }
 

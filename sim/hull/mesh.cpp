@@ -6,6 +6,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "sim/number_text.h"
+
 namespace stillhook {
 
 namespace {
@@ -160,7 +162,7 @@ Mesh box_mesh(const Vector3& size, const Vector3& centre, double panel_length) {
   }
   const auto on_face = [&](int a, int b) { return 4.0 * panels[a] * panels[b]; };
   if (most >= 1e4 || on_face(0, 1) + on_face(1, 2) + on_face(2, 0) > static_cast<double>(kMostTriangles))
-    throw MeshError("a panel length of " + std::to_string(panel_length) +
+    throw MeshError("a panel length of " + number_text(panel_length) +
                     " m divides the box into more than a million triangles");
   return BoxSurface(centre - 0.5 * size, size, panels).build();
 }
@@ -174,7 +176,7 @@ Mesh refined_mesh(const Mesh& mesh, double longest_edge) {
     Mesh next = EdgeHalving(now, longest_edge).run(now);
     if (next.triangles.size() == now.triangles.size()) return now;
     if (next.triangles.size() > kMostTriangles)
-      throw MeshError("panels of " + std::to_string(longest_edge) +
+      throw MeshError("panels of " + number_text(longest_edge) +
                       " m divide the hull into more than a million triangles");
     now = std::move(next);
   }

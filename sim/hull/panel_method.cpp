@@ -8,6 +8,7 @@
 #include "sim/hull/linear_froude_krylov.h"
 #include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/hull_modes.h"
+#include "sim/interrupted.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -93,7 +94,7 @@ class Computation {
     std::ostringstream text;
     text.precision(3);
     text << band.from << " to " << band.to << " rad/s";
-    if (!progress_(share, text.str())) throw std::runtime_error("interrupted");
+    if (!progress_(share, text.str())) throw Interrupted();
   }
 
   void describe() {

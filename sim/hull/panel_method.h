@@ -74,7 +74,7 @@ struct PanelMethodReport {
 std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options);
 
 /// Computes the set. `progress`: share done, from 0 to 1, and what is being done; returning false ends the computation
-/// with an std::runtime_error "interrupted". Throws SpecificationError("bodies.<name>") for a hull that cannot be used:
+/// with Interrupted. Throws SpecificationError("bodies.<name>") for a hull that cannot be used:
 /// not in the water or wholly in it, a lid in the water plane, hulls that overlap, a hull too small for its waves.
 HydrodynamicCoefficients panel_method(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
                                       PanelMethodReport* report = nullptr,

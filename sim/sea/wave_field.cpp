@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/number_text.h"
 #include "sim/sea/spectrum.h"
 #include "sim/sea/wave_kernel.h"
 
@@ -38,25 +39,24 @@ void sample_calm(std::span<const double> z, bool gradients, const WaveSamples& o
 }
 
 void check(const SeaStateSpec& s) {
-  const auto number = [](double v) { return std::to_string(v); };
-  if (!std::isfinite(s.heading)) refuse(s, "heading", "must be a number, got " + number(s.heading));
+  if (!std::isfinite(s.heading)) refuse(s, "heading", "must be a number, got " + number_text(s.heading));
   if (s.type == SeaStateSpec::Type::regular) {
     if (!(s.amplitude >= 0.0) || !std::isfinite(s.amplitude))
-      refuse(s, "amplitude", "must be >= 0 m, got " + number(s.amplitude));
+      refuse(s, "amplitude", "must be >= 0 m, got " + number_text(s.amplitude));
     if (!(s.frequency > 0.0) || !std::isfinite(s.frequency))
-      refuse(s, "frequency", "must be > 0 rad/s, got " + number(s.frequency));
-    if (!std::isfinite(s.phase)) refuse(s, "phase", "must be a number, got " + number(s.phase));
+      refuse(s, "frequency", "must be > 0 rad/s, got " + number_text(s.frequency));
+    if (!std::isfinite(s.phase)) refuse(s, "phase", "must be a number, got " + number_text(s.phase));
     return;
   }
   if (!(s.significant_height > 0.0) || !std::isfinite(s.significant_height))
-    refuse(s, "significant_height", "must be > 0 m, got " + number(s.significant_height));
+    refuse(s, "significant_height", "must be > 0 m, got " + number_text(s.significant_height));
   if (!(s.peak_period > 0.0) || !std::isfinite(s.peak_period))
-    refuse(s, "peak_period", "must be > 0 s, got " + number(s.peak_period));
+    refuse(s, "peak_period", "must be > 0 s, got " + number_text(s.peak_period));
   // From 1/0.287 = e^3.48 on the factor 1 - 0.287 ln gamma is negative; measured spectra lie between 1 and 7.
   if (s.gamma != 0.0 && !(s.gamma >= 1.0 && s.gamma <= 10.0))
-    refuse(s, "gamma", "must lie between 1 and 10 (or be left out), got " + number(s.gamma));
+    refuse(s, "gamma", "must lie between 1 and 10 (or be left out), got " + number_text(s.gamma));
   if (!(s.spreading >= 0.0) || !std::isfinite(s.spreading))
-    refuse(s, "spreading", "must be >= 0, got " + number(s.spreading));
+    refuse(s, "spreading", "must be >= 0, got " + number_text(s.spreading));
   if (s.components < 1) refuse(s, "components", "must be at least 1, got " + std::to_string(s.components));
   if (s.directions < 1) refuse(s, "directions", "must be at least 1, got " + std::to_string(s.directions));
   if ((s.directions > 1) != (s.spreading > 0.0))
@@ -72,7 +72,7 @@ void check_steepness(const SeaStateSpec& s, double gravity) {
   const double steepness = 2.0 * s.amplitude * s.frequency * s.frequency / (kTurn * gravity);
   if (steepness > 1.0 / 7.0)
     refuse(s, "amplitude",
-           "the wave would break: height over length is " + std::to_string(steepness) + ", at most 1/7 is possible");
+           "the wave would break: height over length is " + number_text(steepness) + ", at most 1/7 is possible");
 }
 
 }  // namespace
@@ -146,8 +146,8 @@ Vector3 WaveField::velocity(const Vector3& p_W, double t) const {
 WaveField build_wave_field(const SeaStateSpec& state, double gravity, double ramp) {
   if (state.type == SeaStateSpec::Type::calm) return {};
   check(state);
-  if (!(gravity > 0.0)) throw SpecificationError("sea", "gravity", "must be > 0 m/s2, got " + std::to_string(gravity));
-  if (!(ramp >= 0.0)) throw SpecificationError("sea", "ramp", "must be >= 0 s, got " + std::to_string(ramp));
+  if (!(gravity > 0.0)) throw SpecificationError("sea", "gravity", "must be > 0 m/s2, got " + number_text(gravity));
+  if (!(ramp >= 0.0)) throw SpecificationError("sea", "ramp", "must be >= 0 s, got " + number_text(ramp));
   if (state.type != SeaStateSpec::Type::regular) return {spectrum_components(state, gravity), ramp};
   check_steepness(state, gravity);
   if (state.amplitude == 0.0) return {};

@@ -41,11 +41,11 @@ TEST_CASE("the verdict names the criterion that governs", "[colour]") {
   heel.limit = 5.0;
   heel.margin = 0.5;
   heel.pass = true;
-  CHECK(verdict_text(metrics, {heel}) == "WITHIN LIMITS, governed by heel_max: 4.5 deg, limit 5 deg");
+  CHECK(verdict_text(metrics, {heel}) == "WITHIN LIMITS, governed by heel_max (largest heel of the crane vessel, waves included): 4.5 deg, limit 5 deg");
   heel.value = 6.0;
   heel.margin = -1.0;
   heel.pass = false;
-  CHECK(verdict_text(metrics, {heel}) == "NOT WITHIN LIMITS, governed by heel_max: 6 deg, limit 5 deg");
+  CHECK(verdict_text(metrics, {heel}) == "NOT WITHIN LIMITS, governed by heel_max (largest heel of the crane vessel, waves included): 6 deg, limit 5 deg");
   metrics.status = RunStatus::interrupted;
   CHECK_THAT(verdict_text(metrics, {heel}), Catch::StartsWith("NOT COMPLETED"));
   CHECK(verdict_text(metrics, {}) == "No limits to keep.");

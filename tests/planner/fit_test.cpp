@@ -1,4 +1,6 @@
 // `stillhook fit` as a user runs it.
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/planner/program.h"
@@ -61,6 +63,48 @@ TEST_CASE("fit says what it cannot do with exit code 2", "[cli][fit][bad_input]"
   std::ofstream(folder / "short.csv") << "t_s,buoy.z\n0,1\n1,2\n2,1\n";
   CHECK_THAT(told({"--measured", "still=short.csv"}), Contains("has 3 rows, a fit needs at least 20"));
   CHECK_THAT(told({"--measured", "run.csv", "--set", "fit.records.still.free_body=box"}), Contains("no body \"box\""));
+}
+
+TEST_CASE("a record is one file, and a file is no pipe", "[cli][fit][bad_input]") {
+  const FitFolder folder;
+  std::filesystem::copy_file(folder / "run.csv", folder / "other.csv");
+  const auto told = [&](const std::vector<std::string>& files) {
+    std::vector<std::string> arguments = {"fit", "buoy.toml", "--out", "x", "--force"};
+    for (const std::string& file : files) arguments.insert(arguments.end(), {"--measured", file});
+    const Result r = run(folder, arguments);
+    CHECK(r.code == 2);
+    return r.err;
+  };
+  for (const std::vector<std::string>& two : std::vector<std::vector<std::string>>{
+           {"still=run.csv", "still=other.csv"}, {"still=run.csv", "other.csv"}, {"run.csv", "other.csv"}, {"run.csv", "still=other.csv"}})
+    CHECK_THAT(told(two), Contains("record \"still\" has a file already") && Contains("run.csv"));
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THAT(told({"still=pipe"}), Contains("--measured pipe: is a pipe or a device") && Contains("write the run to a file"));
+  CHECK_THAT(told({"still=/dev/null"}), Contains("is a pipe or a device"));
+  CHECK_THAT(told({"."}), Contains("is a folder"));
+}
+
+TEST_CASE("the same decay in the dialects of several programs gives the same fit", "[cli][fit]") {
+  const FitFolder folder;
+  const std::string plain = content(folder / "run.csv");
+  const auto estimate = [&](const std::string& text) {
+    std::ofstream(folder / "dialect.csv", std::ios::binary) << text;
+    const Result r = run(folder, {"fit", "buoy.toml", "--measured", "dialect.csv", "--out", "x", "--force", "--json", "--quiet"});
+    INFO(r.err);
+    REQUIRE(r.code == 0);
+    return nlohmann::json::parse(r.out)["estimates"][0]["value"].get<double>();
+  };
+  const double right = estimate(plain);
+  std::string german, quoted;
+  for (const char c : plain) {
+    german += c == ',' ? std::string(";") : c == '.' ? std::string(",") : c == '\n' ? "\r\n" : std::string(1, c);
+    quoted += c == ',' ? std::string("\",\"") : c == '\n' ? std::string("\"\n\"") : std::string(1, c);
+  }
+  german.replace(german.find("buoy,z"), 6, "buoy.z");
+  quoted = "\"" + quoted;
+  quoted.pop_back();  // the quote after the last line
+  CHECK(estimate("\xEF\xBB\xBF" + german) == right);
+  CHECK(estimate(quoted) == right);
 }
 
 }  // namespace

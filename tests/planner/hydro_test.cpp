@@ -67,6 +67,19 @@ Result run_hydro(const Folder& folder, const std::vector<std::string>& arguments
 
 }  // namespace
 
+TEST_CASE("hydro asks for no operation in the case", "[hydro]") {
+  const Folder folder;
+  const std::string text = content(write_case(folder));
+  std::ofstream(folder / "box.toml") << text.substr(0, text.find("[operation]"));
+  const Result check = run_hydro(folder, {"check", "box.toml"});
+  CHECK(check.code == 2);
+  CHECK_THAT(check.err, Catch::Contains("operation"));
+  const Result hydro = run_hydro(folder, {"hydro", "box.toml", "--out", "out"});
+  CHECK(hydro.code == 0);
+  CHECK(fs::exists(folder / "out/summary.json"));
+  CHECK_NOTHROW(read_case(folder / "out/case.toml"));
+}
+
 TEST_CASE("hydro computes, writes every file, and takes the second run from the cache", "[hydro]") {
   const Folder folder;
   const std::string file = write_case(folder);
@@ -166,7 +179,7 @@ TEST_CASE("warnings of the model reach the summary and the report", "[hydro]") {
   const json summary = json::parse(content(folder / "runs/box-simulate/summary.json"));
   REQUIRE(summary["warnings"].size() >= 1);
   CHECK(summary["warnings"].dump().find("of the sea's energy lies beyond") != std::string::npos);
-  CHECK(content(folder / "runs/box-simulate/report.html").find("To be known") != std::string::npos);
+  CHECK(content(folder / "runs/box-simulate/report.html").find("<b>Warnings</b>") != std::string::npos);
 }
 
 TEST_CASE("hydro refuses what it cannot do", "[hydro]") {

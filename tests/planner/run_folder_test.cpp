@@ -1,10 +1,13 @@
 #include "planner/run_folder.h"
 
+#include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "planner/version.h"
 
@@ -31,9 +34,11 @@ void touch(const fs::path& file) { std::ofstream(file) << "x"; }
 TEST_CASE("a run folder is made, and never overwritten without being asked") {
   const Folder temp;
   const std::string run = (temp.path / "runs" / "lift-plan").string();
-  const RunFolder fresh(run + "/", Mode::fresh);
+  std::optional<RunFolder> first(std::in_place, run + "/", Mode::fresh);
   CHECK(fs::is_directory(run));
-  CHECK(fresh.summary() == run + "/summary.json");
+  CHECK(first->summary() == run + "/summary.json");
+  first.reset();
+  const RunFolder fresh(run, Mode::read);
   CHECK_NOTHROW(RunFolder(run, Mode::fresh));  // still empty
   touch(fresh.case_file());
   touch(fresh.store());
@@ -57,6 +62,36 @@ TEST_CASE("folders that are no runs are left alone") {
   CHECK_THROWS_WITH(RunFolder((temp.path / "thesis.tex").string(), Mode::fresh), Catch::Contains("is a file"));
   CHECK_THROWS_WITH(RunFolder((temp.path / "nothing").string(), Mode::resume), Catch::Contains("nothing to resume"));
   CHECK_THROWS_AS(RunFolder("/proc/stillhook", Mode::fresh), UsageError);
+}
+
+TEST_CASE("one run at a time writes into a folder, and a killed one leaves no lock") {
+  const Folder temp;
+  const std::string run = (temp.path / "run").string();
+  int ready[2];
+  REQUIRE(pipe(ready) == 0);
+  const pid_t other = fork();
+  REQUIRE(other >= 0);
+  if (other == 0) {
+    const RunFolder held(run, Mode::fresh);
+    touch(held.case_file());
+    if (write(ready[1], "x", 1) != 1) _exit(1);
+    while (true) pause();
+  }
+  char byte = 0;
+  REQUIRE(read(ready[0], &byte, 1) == 1);
+  for (const Mode mode : {Mode::fresh, Mode::replace, Mode::resume}) {
+    CHECK_THROWS_WITH(RunFolder(run, mode), Catch::Contains("another run is writing into this folder, process " +
+                                                            std::to_string(other)) &&
+                                                Catch::Contains("--out"));
+    CHECK(fs::exists(run + "/case.toml"));  // nothing was removed
+  }
+  CHECK_NOTHROW(RunFolder(run, Mode::read));  // export and report go on working
+  kill(other, SIGKILL);
+  waitpid(other, nullptr, 0);
+  CHECK_NOTHROW(RunFolder(run, Mode::replace));
+  CHECK_FALSE(fs::exists(run + "/case.toml"));
+  close(ready[0]);
+  close(ready[1]);
 }
 
 TEST_CASE("the program's version is the build's") {

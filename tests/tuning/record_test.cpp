@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <functional>
 
 #include "problems/case.h"
 #include "sim/recorder.h"
@@ -229,6 +230,41 @@ TEST_CASE("every bad record is told its sentence", "[record][bad_input]") {
     spec.file.clear();
     CHECK_THAT(complaint(spec), Contains("has no file; give one in the case or with --measured"));
   }
+}
+
+TEST_CASE("a number that stands for nothing measured is no measurement", "[record][csv]") {
+  const TemporaryFolder folder;
+  const auto complain = [&](const std::function<double(int)>& value, FitRecordSpec::Kind kind = FitRecordSpec::Kind::decay) {
+    int row = 0;
+    FitRecordSpec spec = roll_in_degrees(
+        folder.write("s.csv", csv_of("roll", 50.0, 0.25, [&](double t) {
+                       const double instead = value(row++);
+                       return instead != 0.0 ? instead : roll_at(t);
+                     })));
+    spec.kind = kind;
+    return complaint(spec);
+  };
+  const auto every_ninth = [](double value) { return [value](int row) { return row % 9 == 4 ? value : 0.0; }; };
+  for (const double value : {-9999.0, -999.0, 9999.0, 99999.0, -999.25, 1e20, 32767.0, -99.0}) {
+    CAPTURE(value);
+    CHECK_THAT(complain(every_ninth(value)),
+               Contains(fmt::format("s.csv:6: column \"roll\" is {:.10g}, far from all its other values, in 22 rows", value)));
+    CHECK_THAT(complain(every_ninth(value), FitRecordSpec::Kind::constant), Contains("nothing was measured"));
+  }
+  CHECK_THAT(complain([](int row) { return row == 0 ? -9999.0 : 0.0; }), Contains("s.csv:2") && Contains("in this row alone"));
+  CHECK(complain(every_ninth(4.0)) == "no complaint");  // a number as any other
+  // The clock has such rows, too.
+  std::string text = "t_s,roll\n-9999,5\n";
+  for (int i = 1; i < 60; ++i) text += fmt::format("{:.6g},{:.12g}\n", 0.25 * i, roll_at(0.25 * i));
+  CHECK_THAT(complaint(roll_in_degrees(folder.write("clock.csv", text))), Contains("clock.csv:2: column \"t_s\" is -9999"));
+}
+
+TEST_CASE("999 is a force like any other among its like", "[record]") {
+  const TemporaryFolder folder;
+  FitRecordSpec spec = roll_in_degrees(
+      folder.write("f.csv", csv_of("f", 50.0, 0.25, [](double t) { return t == 5.0 ? 999.0 : 1000.0 + 50.0 * std::sin(t); })));
+  spec.columns[0].channel = "line.tension", spec.columns[0].column = "f", spec.columns[0].unit = "N";
+  CHECK(complaint(spec) == "no complaint");
 }
 
 TEST_CASE("mistakes of units are recognised", "[record][unit]") {

@@ -1,0 +1,64 @@
+#include "problems/not_modelled.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+namespace stillhook {
+namespace {
+
+struct Missing {
+  std::vector<std::string_view> words;  // of a key, parted by "_"; a word with "_" in it is looked for in the whole key
+  std::string_view sentence;
+};
+
+const std::vector<Missing>& missing_things() {
+  static const std::vector<Missing> all = {
+      {{"wind", "gust", "windage"},
+       "stillhook does not model wind yet: a steady wind force on the load has to be left out"},
+      {{"current", "currents"}, "stillhook does not model current yet"},
+      {{"ahc", "phc", "heave_compensation", "heave_compensator", "heave_compensated", "compensator", "compensation"},
+       "stillhook does not model heave compensation yet"},
+      {{"constant_tension", "tension_control"},
+       "stillhook does not model winches at constant tension yet, but for taglines with gains of 0"},
+      {{"dp", "dynamic_positioning", "thruster", "thrusters"},
+       "stillhook does not model dynamic positioning yet: soft moorings hold a vessel instead"},
+      {{"crane", "cranes", "crane_curve", "capacity_curve", "load_chart", "derating"},
+       "stillhook does not model a crane as one thing or its capacity curve yet: a crane is a body with joints, drives "
+       "and wires, and limits take its hook load"},
+      {{"slam", "slamming", "slamming_coefficient"}, "stillhook does not model slamming yet"},
+      {{"drag", "morison", "cd"},
+       "stillhook does not model drag on the water's relative velocity yet: hydrodynamics of kind \"constant\" have "
+       "quadratic damping on the body's own velocity"},
+      {{"surface_normal", "guide", "guides", "bumper", "bumpers", "stabbing"},
+       "stillhook does not model guides, bumpers or inclined contact surfaces yet: a contact is a horizontal "
+       "rectangle"},
+      {{"weight_n_per_m", "weight_kn_per_m", "mass_kg_per_m", "mass_t_per_m", "weight_t_per_m"},
+       "stillhook does not model the weight of wires yet"},
+      {{"mudmat", "suction"}, "stillhook does not model suction of the seabed yet"},
+      {{"rao", "raos", "displacement_rao", "qtf", "qtfs"},
+       "stillhook does not model vessels by given displacement RAOs or drift coefficients yet: it takes added mass, "
+       "damping "
+       "and excitation forces (kinds \"database\" and \"table\") or computes them (\"panels\")"}};
+  return all;
+}
+
+bool names(const std::string& key, std::string_view word) {
+  const std::string parted = "_" + key + "_", wanted = "_" + std::string(word) + "_";
+  return parted.find(wanted) != std::string::npos;
+}
+
+}  // namespace
+
+std::string not_modelled(const std::string& word) {
+  std::string key = word;
+  std::transform(key.begin(), key.end(), key.begin(),
+                 [](unsigned char c) { return c == '-' || c == '.' ? '_' : std::tolower(c); });
+  for (const Missing& thing : missing_things())
+    if (std::any_of(thing.words.begin(), thing.words.end(), [&](std::string_view w) { return names(key, w); }))
+      return std::string(thing.sentence);
+  return {};
+}
+
+}  // namespace stillhook

@@ -1,0 +1,153 @@
+#include "tuning/measured_netcdf.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+
+#include "problems/case.h"
+#include "problems/field_table.h"
+#include "results/netcdf_file.h"
+#include "results/safe_netcdf.h"
+#include "sim/spatial/constants.h"
+
+namespace stillhook {
+namespace {
+
+/// Names that a variable can be asked for by: its own and its attribute `channel`.
+std::vector<std::pair<std::string, std::string>> named_variables(const NetcdfFile& file) {
+  int count = 0;
+  file.check(nc_inq_nvars(file.id(), &count), "variables");
+  std::vector<std::pair<std::string, std::string>> found;
+  for (int id = 0; id < count; ++id) {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    file.check(nc_inq_varname(file.id(), id, name.data()), "variables");
+    found.emplace_back(name.data(), name.data());
+    nc_type type = NC_NAT;
+    std::size_t length = 0;
+    if (nc_inq_att(file.id(), id, "channel", &type, &length) == NC_NOERR && type == NC_CHAR)
+      found.emplace_back(file.text(id, "channel"), name.data());
+  }
+  return found;
+}
+
+std::size_t length_of_variable(const NetcdfFile& file, int id, const std::string& name, const std::string& path) {
+  int rank = 0, dimension = 0;
+  file.check(nc_inq_varndims(file.id(), id, &rank), name);
+  if (rank != 1) throw CaseError(fmt::format("{}: variable \"{}\" must have one dimension, has {}", path, name, rank));
+  file.check(nc_inq_vardimid(file.id(), id, &dimension), name);
+  std::size_t length = 0;
+  file.check(nc_inq_dimlen(file.id(), dimension, &length), name);
+  return length;
+}
+
+/// Numbers of an attribute; empty if there is none, or a text.
+std::vector<double> numbers_of(const NetcdfFile& file, int id, const char* attribute) {
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (nc_inq_att(file.id(), id, attribute, &type, &length) != NC_NOERR || type == NC_CHAR || type == NC_STRING)
+    return {};
+  std::vector<double> values(length);
+  file.check(nc_get_att_double(file.id(), id, attribute, values.data()), std::string("attribute ") + attribute);
+  return values;
+}
+
+std::string text_of(const NetcdfFile& file, int id, const char* attribute) {
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (nc_inq_att(file.id(), id, attribute, &type, &length) != NC_NOERR || type != NC_CHAR) return {};
+  std::string text = file.text(id, attribute);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+  return text;
+}
+
+/// What NetCDF writes where nothing was written, if the variable does not say otherwise.
+std::vector<double> usual_fill(nc_type type) {
+  switch (type) {
+    case NC_SHORT:
+      return {NC_FILL_SHORT};
+    case NC_INT:
+      return {NC_FILL_INT};
+    case NC_INT64:
+      return {static_cast<double>(NC_FILL_INT64)};
+    case NC_FLOAT:
+      return {NC_FILL_FLOAT};
+    case NC_DOUBLE:
+      return {NC_FILL_DOUBLE};
+    default:
+      return {};
+  }
+}
+
+/// Which raw numbers of a variable are gaps, and what the others mean.
+class Unpacking {
+ public:
+  Unpacking(const NetcdfFile& file, int id) {
+    nc_type type = NC_NAT;
+    file.check(nc_inq_vartype(file.id(), id, &type), "type of a variable");
+    missing_ = numbers_of(file, id, "_FillValue");
+    if (missing_.empty()) missing_ = usual_fill(type);
+    for (const double value : numbers_of(file, id, "missing_value")) missing_.push_back(value);
+    if (const auto range = numbers_of(file, id, "valid_range"); range.size() == 2) low_ = range[0], high_ = range[1];
+    if (const auto low = numbers_of(file, id, "valid_min"); low.size() == 1) low_ = low[0];
+    if (const auto high = numbers_of(file, id, "valid_max"); high.size() == 1) high_ = high[0];
+    if (const auto factor = numbers_of(file, id, "scale_factor"); factor.size() == 1) factor_ = factor[0];
+    if (const auto offset = numbers_of(file, id, "add_offset"); offset.size() == 1) offset_ = offset[0];
+  }
+
+  double operator()(double raw) const {
+    // Beyond all measurements lies what programs fill with when they do not say so.
+    const bool given = std::isfinite(raw) && std::abs(raw) < 0.99 * NC_FILL_FLOAT && raw >= low_ && raw <= high_ &&
+                       std::find(missing_.begin(), missing_.end(), raw) == missing_.end();
+    return given ? raw * factor_ + offset_ : kNaN;
+  }
+
+ private:
+  std::vector<double> missing_;
+  double low_ = -kInfinite, high_ = kInfinite, factor_ = 1.0, offset_ = 0.0;
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+};
+
+MeasuredTable read_variables(const std::string& path, const std::vector<std::string>& names) {
+  const NetcdfFile file(path, NetcdfFile::Mode::read, path);
+  const auto found = named_variables(file);
+  MeasuredTable table;
+  table.file = path;
+  table.names = names;
+  std::size_t rows = 0;
+  for (const std::string& name : names) {
+    const auto at = std::find_if(found.begin(), found.end(), [&](const auto& v) { return v.first == name; });
+    if (at == found.end()) {
+      std::vector<std::string> known;
+      for (const auto& v : found) known.push_back(v.first);
+      throw CaseError(fmt::format("{}: has no variable \"{}\"{}", path, name, did_you_mean(name, known)));
+    }
+    const int id = file.find(at->second);
+    const std::size_t length = length_of_variable(file, id, at->second, path);
+    if (!table.values.empty() && length != rows)
+      throw CaseError(fmt::format("{}: \"{}\" has {} values, \"{}\" {}", path, name, length, names.front(), rows));
+    rows = length;
+    table.values.push_back(rows > 0 ? file.doubles(at->second, rows) : std::vector<double>());
+    table.units.push_back(text_of(file, id, "units"));
+    const Unpacking unpacked(file, id);
+    for (double& value : table.values.back()) value = unpacked(value);
+  }
+  for (std::size_t i = 0; i < rows; ++i) table.lines.push_back(static_cast<int>(i + 1));
+  return table;
+}
+
+}  // namespace
+
+MeasuredTable read_measured_netcdf(const std::string& path, const std::vector<std::string>& names) {
+  try {
+    return read_safely(path, [&] { return read_variables(path, names); });
+  } catch (const CaseError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw CaseError(error.what());
+  }
+}
+
+}  // namespace stillhook

@@ -1,0 +1,12 @@
+// The named variables of a NetCDF file, by its conventions (CF 1.8, sections 2.5.1 and 8.1): gaps by _FillValue,
+// missing_value and the valid range, packed numbers by scale_factor and add_offset.
+#pragma once
+
+#include "tuning/measured_table.h"
+
+namespace stillhook {
+
+/// Throws CaseError that names file and variable.
+MeasuredTable read_measured_netcdf(const std::string& path, const std::vector<std::string>& names);
+
+}  // namespace stillhook
