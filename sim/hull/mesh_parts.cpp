@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "sim/hull/mesh_edges.h"
-
 namespace stillhook {
 namespace {
 
@@ -148,9 +146,9 @@ Sides sides_of(const Mesh& mesh, const PartSurface& a, PartSurface& b) {
 
 }  // namespace
 
-NestedParts nested_parts(const Mesh& mesh) {
+NestedParts nested_parts(const Mesh& mesh, const EdgeMap& edges) {
   NestedParts found;
-  found.part = parts_of(mesh, edges_of(mesh));
+  found.part = parts_of(mesh, edges);
   const int count = found.part.empty() ? 0 : *std::ranges::max_element(found.part) + 1;
   if (count < 2) return found;
   std::vector<std::vector<int>> triangles(static_cast<std::size_t>(count));
