@@ -10,7 +10,7 @@ namespace {
 constexpr double kTouching = 1e-5;  // of the mesh's size
 
 /// Distance of p from a triangle: to its plane where p lies above it, else to the nearest edge.
-double distance_to(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+double distance_to_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 n = (b - a).cross(c - a);
   bool above = true;
   double nearest = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ class PartSurface {
         [&](const std::vector<int>& column) {
           for (const int t : column) {
             const Vector3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-            near = near || distance_to(p, a, b, c) <= touching_;
+            near = near || distance_to_triangle(p, a, b, c) <= touching_;
             inside ^= ray_meets(from, a, b, c);
           }
         },
