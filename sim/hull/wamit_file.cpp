@@ -84,7 +84,7 @@ void WamitReader::choose_bodies(const WamitText& text, HydrodynamicCoefficients&
   int highest = 0;
   for (const WamitRow& row : text.rows()) {
     text.require_columns(row, 4, 5);
-    highest = std::max({highest, text.mode(row, 1, kMostFileModes), text.mode(row, 2, kMostModes)});
+    highest = std::max({highest, text.mode(row, 1, kMostFileModes), text.mode(row, 2, kMostFileModes)});
   }
   const int held = highest / 6 + 1;
   local_.assign(static_cast<std::size_t>(6 * held), -1);
