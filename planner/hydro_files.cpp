@@ -37,7 +37,7 @@ Matrix6 restoring(const Model& model, int body) {
 /// One hull in the frame of the databases.
 struct DatabaseHull {
   Vector3 origin, cg, cb;         // m
-  Vector3 xbody;                  // m, what WAMIT's moments are about: over Bo in the water plane, (0, 0, 0) for one hull
+  Vector3 xbody;                  // m, what WAMIT's moments are about: over Bo in the water plane
   Matrix6 about_cg, about_xbody;  // N/m, N, N m
   double turned = 0.0;             // rad, its heading from that of the first
 };

@@ -174,11 +174,7 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     group.added_mass_factor = mode_factors(bodies, &HydrodynamicsSpec::added_mass_factor);
     group.radiation_factor = mode_factors(bodies, &HydrodynamicsSpec::radiation_factor);
     if (group.set && !group.set->excitation.empty()) {
-      try {
-        group.diffraction.emplace(group.set->excitation, incident, headings, group.set->length);
-      } catch (const std::invalid_argument& error) {
-        throw SpecificationError("bodies." + spec.bodies[members.front()].name + ".hydrodynamics", "", error.what());
-      }
+      group.diffraction.emplace(group.set->excitation, incident, headings, group.set->length);
       lowest_ = std::max(lowest_, group.set->excitation.frequencies.front());
       highest_ = std::min(highest_, group.diffraction->highest_frequency());
     }

@@ -25,11 +25,12 @@
 namespace stillhook {
 
 /// Reads all bodies of a file, which must be as many as frame.bodies, or frame.chosen. `scaled` is 0, and T not compared,
-/// where they are missing; excitation may be given as mag and phase alone, A and B be missing beside K. Volumes come from the file where the frame gives
-/// none, the water planes from the restoring in heave, retardation functions from the file or else from B. Frequencies
-/// may stand in any order; excitation at w = 0 is left out. Throws SpecificationError(path) when it is no HDF5 file, is
-/// damaged, lacks a dataset, a dataset has another shape, bodies have other than six modes, numbers are not finite, w
-/// and T contradict each other, times are uneven, or headings do not go round. Does not run the self-checks.
+/// where they are missing; excitation may be given as mag and phase alone, A and B be missing beside K. Volumes come
+/// from the file where the frame gives none, the water planes from the restoring in heave, retardation functions from
+/// the file or else from B. Frequencies may stand in any order; excitation at w = 0 is left out. Throws
+/// SpecificationError(path) when it is no HDF5 file, is damaged, lacks another dataset, a dataset has another shape,
+/// bodies have other than six modes, numbers are not finite, w and T contradict each other, or times are uneven. Does
+/// not run the self-checks.
 HydrodynamicCoefficients read_bemio(const std::string& path, const DatabaseFrame& frame);
 
 /// What WEC-Sim wants to know of a body beyond its coefficients.

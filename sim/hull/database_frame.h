@@ -64,7 +64,7 @@ std::vector<int> chosen_bodies(int held, const DatabaseFrame& frame, const std::
                                std::vector<std::string>& remarks);
 
 /// Leaves out A, B and X outside frame.lowest..highest, and retardation functions, which hold all of B. Throws
-/// SpecificationError(source) when fewer than two frequencies are left.
+/// SpecificationError(source) when fewer than three frequencies are left.
 void cut_frequencies(HydrodynamicCoefficients& coefficients, const DatabaseFrame& frame, const std::string& source);
 
 /// With frame.axisymmetric: the excitation of a body of revolution about the vertical through `reference`, from its one

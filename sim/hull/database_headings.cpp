@@ -12,11 +12,11 @@ namespace stillhook {
 namespace {
 
 constexpr double kCircle = 2.0 * std::numbers::pi;
-constexpr double kSameHeading = 1e-5;                                // rad: printed with 6 digits
-constexpr double kSameExcitation = 1e-3;                             // of the largest of the mode
-constexpr double kMirror = 1e-2;                                     // sway in a following sea, of the largest sway
-constexpr double kLargestSpacing = 90.5 / 180.0 * std::numbers::pi;  // rad
-constexpr double kRound = 0.03;                                      // of a body of revolution made of flat panels
+constexpr double kSameHeading = 1e-5;                               // rad: printed with 6 digits
+constexpr double kSameExcitation = 1e-3;                            // of the largest of the mode
+constexpr double kMirror = 1e-2;                                    // sway in a following sea, of the largest sway
+constexpr double kWidestSpacing = 90.5 / 180.0 * std::numbers::pi;  // rad
+constexpr double kRound = 0.03;                                     // of a body of revolution made of flat panels
 
 [[noreturn]] void fail_heading(const std::string& source, const std::string& sentence) {
   throw SpecificationError(source, "", sentence);
@@ -205,7 +205,7 @@ void complete_headings(ExcitationTable& X, const DatabaseFrame& frame, const std
   if (frame.port_starboard) X = mirrored(X, source);
   const std::size_t count = X.headings.size();
   const double step = kCircle / static_cast<double>(count);
-  if (step > kLargestSpacing) return;
+  if (step > kWidestSpacing) return;
   std::vector<double> even;
   for (std::size_t h = 0; h < count; ++h) {
     even.push_back(X.headings[0] + step * static_cast<double>(h));

@@ -1,4 +1,5 @@
 // What is taken of a database that holds more (database_frame.h).
+#include <algorithm>
 #include <sstream>
 
 #include "sim/hull/database_frame.h"
@@ -47,9 +48,11 @@ void cut_frequencies(HydrodynamicCoefficients& c, const DatabaseFrame& frame, co
     kept.value.insert(kept.value.end(), from, from + static_cast<std::ptrdiff_t>(row));
   }
   if (c.frequency.size() + kept.frequencies.size() == before) return;
-  if ((table && c.frequency.size() < 2) || (kept.frequencies.size() < 2 && kept.frequencies.size() < X.frequencies.size())) {
+  // Retardation functions need three of B, and excitation two to look up what lies between.
+  const auto moving = std::ranges::count_if(c.frequency, [](const auto& f) { return f.frequency > 0.0; });
+  if ((table && moving < 3) || (kept.frequencies.size() < 2 && kept.frequencies.size() < X.frequencies.size())) {
     std::ostringstream sentence;
-    sentence << "has fewer than two frequencies from database_lowest_rad_per_s to database_highest_rad_per_s ("
+    sentence << "has fewer than three frequencies from database_lowest_rad_per_s to database_highest_rad_per_s ("
              << frame.lowest << " to " << frame.highest << " rad/s)";
     throw SpecificationError(source, "", sentence.str());
   }

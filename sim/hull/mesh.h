@@ -62,8 +62,9 @@ Mesh refined_mesh(const Mesh& mesh, double longest_edge);
 /// coordinates of their first occurrence.
 Mesh welded_mesh(const Mesh& mesh, double tolerance);
 
-/// The mesh with holes closed whose rim is at most kSmallHole of the mesh's size around, without the connected parts that
-/// lie inside others (their rooms would count as buoyancy twice), and with every other part turned to face outwards. `done` tells what was changed, as a sentence; empty if nothing. What cannot be mended is
+/// The mesh with holes closed whose rim is at most kSmallHole of the mesh's size around, without the connected parts
+/// that lie inside others (their rooms would count as buoyancy twice), and with every other part turned outwards.
+/// `done` tells what was changed, as a sentence; empty if nothing. What cannot be mended is
 /// left for check_mesh to name.
 inline constexpr double kSmallHole = 0.25;
 Mesh mended_mesh(const Mesh& mesh, std::string& done);

@@ -136,8 +136,8 @@ Mesh without_inner_parts(const Mesh& mesh, const NestedParts& nested) {
   return result;
 }
 
-void check_parts(const Mesh& mesh, const std::string& what) {
-  const NestedParts nested = nested_parts(mesh);
+void check_parts(const Mesh& mesh, const EdgeMap& edges, const std::string& what) {
+  const NestedParts nested = nested_parts(mesh, edges);
   if (nested.overlapping > 0)
     throw MeshError(
         what + ": " +
@@ -177,10 +177,14 @@ Mesh mended_mesh(const Mesh& mesh, std::string& done) {
   std::size_t left_out = 0;
   if (const EdgeMap edges = edges_of(result); is_closed(edges)) {
     // First what lies inside goes: turned outwards it would count as buoyancy a second time.
-    const NestedParts nested = nested_parts(result);
+    const NestedParts nested = nested_parts(result, edges);
     left_out = nested.inner.size();
-    if (left_out > 0) result = without_inner_parts(result, nested);
-    turn = Orientation(result, left_out > 0 ? edges_of(result) : edges).to_turn();
+    if (left_out > 0) {
+      result = without_inner_parts(result, nested);
+      turn = Orientation(result, edges_of(result)).to_turn();
+    } else {
+      turn = Orientation(result, edges).to_turn();
+    }
   }
   for (const int t : turn) std::swap(result.triangles[t][1], result.triangles[t][2]);
   done.clear();
@@ -200,7 +204,7 @@ void check_mesh(const Mesh& mesh, const std::string& what) {
   const long inward = Orientation(mesh, edges).inward_triangles();
   const long all = static_cast<long>(mesh.triangles.size());
   if (inward < 0) throw MeshError(what + ": the surface has only one side, no choice of normals is consistent");
-  check_parts(mesh, what);
+  check_parts(mesh, edges, what);
   if (inward == all)
     throw MeshError(what + ": the mesh is inverted, all " + std::to_string(all) + " triangles face inwards");
   if (inward > 0)

@@ -4,15 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "sim/hull/mesh_edges.h"
-
 namespace stillhook {
 namespace {
 
 constexpr double kTouching = 1e-5;  // of the mesh's size
 
 /// Distance of p from a triangle: to its plane where p lies above it, else to the nearest edge.
-double distance_to(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+double distance_to_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 n = (b - a).cross(c - a);
   bool above = true;
   double nearest = std::numeric_limits<double>::infinity();
@@ -63,7 +61,7 @@ class PartSurface {
         [&](const std::vector<int>& column) {
           for (const int t : column) {
             const Vector3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-            near = near || distance_to(p, a, b, c) <= touching_;
+            near = near || distance_to_triangle(p, a, b, c) <= touching_;
             inside ^= ray_meets(from, a, b, c);
           }
         },
@@ -148,9 +146,9 @@ Sides sides_of(const Mesh& mesh, const PartSurface& a, PartSurface& b) {
 
 }  // namespace
 
-NestedParts nested_parts(const Mesh& mesh) {
+NestedParts nested_parts(const Mesh& mesh, const EdgeMap& edges) {
   NestedParts found;
-  found.part = parts_of(mesh, edges_of(mesh));
+  found.part = parts_of(mesh, edges);
   const int count = found.part.empty() ? 0 : *std::ranges::max_element(found.part) + 1;
   if (count < 2) return found;
   std::vector<std::vector<int>> triangles(static_cast<std::size_t>(count));

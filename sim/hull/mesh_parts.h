@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh_edges.h"
 
 namespace stillhook {
 
@@ -15,6 +15,6 @@ struct NestedParts {
 
 /// Of a closed mesh; which way the surfaces face does not matter. Two parts that touch do not overlap: what counts is a
 /// point of one deeper than a hundred thousandth of the mesh's size inside the other.
-NestedParts nested_parts(const Mesh& mesh);
+NestedParts nested_parts(const Mesh& mesh, const EdgeMap& edges);
 
 }  // namespace stillhook

@@ -21,7 +21,7 @@ constexpr double kSameForce = 1e-2;
 // Of the largest force (or moment) of the file: what symmetry makes zero is rounding noise, of codes that compute in
 // single precision up to 1e-6, and Mod and Pha of noise need not be those of Re and Im.
 constexpr double kNoForce = 1e-5;
-constexpr int kMostModes = 600;
+constexpr int kMostFileModes = 600;
 
 /// The file of that ending as it is on the disk: some systems write endings in capitals.
 std::string wamit_path(const std::string& base, const std::string& ending) {
@@ -84,7 +84,7 @@ void WamitReader::choose_bodies(const WamitText& text, HydrodynamicCoefficients&
   int highest = 0;
   for (const WamitRow& row : text.rows()) {
     text.require_columns(row, 4, 5);
-    highest = std::max({highest, text.mode(row, 1, kMostModes), text.mode(row, 2, kMostModes)});
+    highest = std::max({highest, text.mode(row, 1, kMostFileModes), text.mode(row, 2, kMostFileModes)});
   }
   const int held = highest / 6 + 1;
   local_.assign(static_cast<std::size_t>(6 * held), -1);
