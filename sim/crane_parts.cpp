@@ -98,9 +98,10 @@ Vector3 boom_athwart(const Specification& s, const std::string& body) {
     const Vector3 axis = joint->axis.normalized();
     const Vector3 axis_W = parent ? Vector3(rotation_from(parent->attitude) * axis) : axis;
     if (std::abs(axis_W.z()) < kUpright) {
-      // Forward is athwart x up. With the tip straight above the hinge the body's own x axis says where that is.
-      const Vector3 ahead =
-          outreach_W.norm() > kShortOutreach ? outreach_W : Vector3(R_WB.col(0) - R_WB.col(0).z() * Vector3::UnitZ());
+      // Forward is athwart x up. Of a boom that stands upright the x axis of what carries its hinge says where that is.
+      const Vector3 ahead = outreach_W.norm() > kShortOutreach ? outreach_W
+                            : parent                           ? Vector3(rotation_from(parent->attitude).col(0))
+                                                               : Vector3(Vector3::UnitX());
       const double sign = axis_W.cross(Vector3::UnitZ()).dot(ahead) < 0.0 ? -1.0 : 1.0;
       return sign * (R_WB.transpose() * axis_W);
     }
