@@ -60,7 +60,7 @@ std::string limits_comparison_text(const SearchSection& s) {
   TextTable table({"limit", "unit", "bound", "baseline", "", "plan", ""});
   for (std::size_t i = 0; i < s.plan_limits.size() && i < s.baseline_limits.size(); ++i) {
     const LimitCheck &before = s.baseline_limits[i], &after = s.plan_limits[i];
-    table.add({after.metric, unit_text(after.unit), fmt::format("{} {:g}", after.is_max ? "<=" : ">=", after.limit),
+    table.add({after.metric, after.unit, fmt::format("{} {:g}", after.is_max ? "<=" : ">=", after.limit),
                short_number(before.value), verdict(before), short_number(after.value), verdict(after)});
   }
   return table.empty() ? "" : "Limits, worst scenario of each\n" + table.text();
