@@ -100,7 +100,7 @@ std::vector<ReportTable> static_tables(const Model& model, const std::vector<Sta
   for (ReportTable& table : mooring_tables(model)) tables.push_back(std::move(table));
   if (model.specification().wires.empty()) return tables;
   const double tonne = 1000.0 * model.specification().sea.gravity;
-  tables.push_back(wire_table(model, poses, "Wire tensions", "In t (weight of that mass).", "tension", tonne, 1));
+  tables.push_back(wire_table(model, poses, "Wire tensions", "In t: the force that holds this mass.", "tension", tonne, 1));
   tables.push_back(wire_table(model, poses, "Wire lengths", "Stretched, in m.", "length", 1.0, 2));
   return tables;
 }

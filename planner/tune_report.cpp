@@ -163,7 +163,7 @@ ReportTable swing_table(const GainTuning& result) {
 ReportTable winch_table(const GainTuning& result) {
   ReportTable table{"Winches of the taglines",
                     "At the tuned gains. Wanted: what a winch without limits would do in the worst scenario.",
-                    {"", "saturated", "speed, m/min", "wanted, m/min", "pull, t", "wanted, t", ""},
+                    {"", "saturated", "speed, m/min", "wanted, m/min", "pull, t", "wanted, t", "keeps up with what is wanted"},
                     {}};
   constexpr double kPerMinute = 60.0, kTonne = 9806.65;
   for (const WinchDemand& w : result.winches)
@@ -171,7 +171,7 @@ ReportTable winch_table(const GainTuning& result) {
                           w.speed_limit > 0.0 ? fmt::format("{:.3g}", kPerMinute * w.speed_limit) : "no limit",
                           fmt::format("{:.3g}", kPerMinute * w.speed_wanted),
                           fmt::format("{:.3g}", w.pull_limit / kTonne), fmt::format("{:.3g}", w.pull_wanted / kTonne),
-                          w.too_slow() ? "too slow for this sea: no gain can help" : "follows"});
+                          w.too_slow() ? "no, too slow for this sea: no gain can help" : "yes"});
   return table;
 }
 

@@ -184,19 +184,20 @@ void write_table(const Node& table, const std::string& path, std::string& out) {
   }
 }
 
-/// Line of the header "[name]" or "[[name]]", or of a key "name =", before `before`; 0 if there is none.
-int first_line_of(const std::string& text, const std::string& name, int before) {
+/// Last line before `before` with the header "[name]" or "[[name]]", or with a key "name =": of all the tables that may have
+/// such a key the one above is meant. 0 if there is none.
+int earlier_line_of(const std::string& text, const std::string& name, int before) {
   std::istringstream lines(text);
-  int number = 0;
+  int number = 0, found = 0;
   for (std::string line; std::getline(lines, line) && ++number < before;) {
     std::string bare;
     for (const char c : line.substr(0, line.find('#')))
       if (c != ' ' && c != '\t' && c != '[' && c != ']' && c != '"' && c != '\r') bare += c;
     const bool header = line.find_first_not_of(" \t") != std::string::npos && line[line.find_first_not_of(" \t")] == '[';
     const bool same_header = header && (bare == name || bare.ends_with("." + name));
-    if (same_header || (!header && bare.starts_with(name + "="))) return number;
+    if (same_header || (!header && bare.starts_with(name + "="))) found = number;
   }
-  return 0;
+  return found;
 }
 
 /// What the parser objects to, as a user would say it.
@@ -206,7 +207,7 @@ std::string parse_fault(const std::string& text, const std::string& description,
   if (again == std::string::npos || quote == std::string::npos) return "is not TOML: " + description;
   const std::string name = description.substr(quote + 1, description.rfind('\'') - quote - 1);
   const bool table = description.find(" table header") != std::string::npos;
-  const int first = first_line_of(text, name, line);
+  const int first = earlier_line_of(text, name, line);
   return fmt::format("{} stands twice{}: {}", table ? "the table [" + name + "]" : "the key \"" + name + "\"",
                      first > 0 ? fmt::format(", first in line {}", first) : std::string(),
                      table ? "put its keys together under one" : "remove one of them");

@@ -93,11 +93,10 @@ class CsvReader {
       if (first_of(k) != k) continue;
       const auto at = std::find(found.begin(), found.end(), table_.names[k]);
       if (at == found.end())
-        throw CaseError(fmt::format("{}:{}: has no column \"{}\"{}; it has {}{}", table_.file, line, table_.names[k],
-                                    did_you_mean(table_.names[k], found), shown_names(found),
-                                    found.size() < table_.names.size()
-                                        ? "; is this the line of the names? Lines above it must begin with #"
-                                        : ""));
+        throw CaseError(fmt::format(
+            "{}:{}: has no column \"{}\"{}; it has {}{}", table_.file, line, table_.names[k],
+            did_you_mean(table_.names[k], found), shown_names(found),
+            knows_none_of_them(found) ? "; is this the line of the names? Lines above it must begin with #" : ""));
       if (const auto second = std::find(at + 1, found.end(), table_.names[k]); second != found.end())
         throw CaseError(fmt::format("{}:{}: has two columns \"{}\", number {} and {}; rename one of them", table_.file,
                                     line, table_.names[k], at - found.begin() + 1, second - found.begin() + 1));
@@ -114,6 +113,12 @@ class CsvReader {
   void copy_shared_columns() {
     for (std::size_t k = 0; k < table_.names.size(); ++k)
       if (first_of(k) != k) table_.values[k] = table_.values[first_of(k)];
+  }
+
+  bool knows_none_of_them(const std::vector<std::string>& found) const {
+    return std::none_of(table_.names.begin(), table_.names.end(), [&found](const std::string& name) {
+      return std::find(found.begin(), found.end(), name) != found.end();
+    });
   }
 
   static std::string shown_names(const std::vector<std::string>& found) {

@@ -12,6 +12,7 @@
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "planner/cli/colour.h"
 #include "planner/cli/command_tree.h"
@@ -254,7 +255,8 @@ int run_verb(const Request& request) {
     spdlog::warn("interrupted while the panel method ran; coefficients that were complete are kept");
     return kInterrupted;
   } catch (const std::exception& error) {
-    if (const std::string fault = output_fault(); !fault.empty()) {
+    const auto* failed_call = dynamic_cast<const std::system_error*>(&error);
+    if (const std::string fault = output_fault(failed_call ? failed_call->code().value() : 0); !fault.empty()) {
       spdlog::error("{}", fault);
       return kBadInput;
     }
@@ -272,15 +274,18 @@ int help_or_version(const CLI::App& app, const CLI::ParseError& error) {
   try {
     fmt::print("{}", text.str());
     return complete_output(kDone);
-  } catch (const std::exception&) {
-    fmt::print(stderr, "error: {}\n", output_fault());
-    return kBadInput;
+  } catch (const std::system_error& failed) {
+    fmt::print(stderr, "error: {}\n", output_fault(failed.code().value()));
+  } catch (const OutputError& failed) {
+    fmt::print(stderr, "error: {}\n", failed.what());
   }
+  return kBadInput;
 }
 
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  occupy_closed_streams();
   CLI::App app("stillhook plans the installation of offshore structures by crane vessel.", "stillhook");
   app.footer(exit_code_text());
   app.set_version_flag("--version", std::string("stillhook ") + kVersion);
