@@ -184,13 +184,7 @@ class ModelBuilder {
 
   EquilibriumReport try_to_settle() {
     state().t = kCalm;
-    const SystemState before = state();
-    EquilibriumReport report;
-    if (other_) report = settle_stably(system(), state(), true);
-    if (!report.converged) {
-      state() = before;
-      report = settle_stably(system(), state());
-    }
+    const EquilibriumReport report = settle_stably(system(), state(), other_ != nullptr);
     state().t = 0.0;
     return report;
   }

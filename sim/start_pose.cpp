@@ -13,9 +13,9 @@
 namespace stillhook {
 namespace {
 
-constexpr double kRounding = 0.05;     // m: of poses in a case file
-constexpr double kDraftError = 1.0;    // m: what a case may be wrong about how deep hulls float under a standing load
-constexpr double kNotedMove = 0.5;     // m
+constexpr double kRounding = 0.05;   // m: of poses in a case file
+constexpr double kDraftError = 1.0;  // m: what a case may be wrong about how deep hulls float under a standing load
+constexpr double kNotedMove = 0.5;   // m
 constexpr double kNotedTurn = 5.0 * kDegree;
 
 int body_named(const Specification& spec, const std::string& name) {
@@ -115,8 +115,8 @@ class Reasons {
       if (off <= most) continue;
       most = off;
       reason = "wire '" + spec_.wires[i].name + "' is " + text_of("%.6g", model_.initial_lengths()[i]) +
-               " m long without load and " + text_of("%.6g", now.distance()) +
-               " m with it, its ends are " + text_of("%.6g", then.distance()) + " m apart at the given pose";
+               " m long without load and " + text_of("%.6g", now.distance()) + " m with it, its ends are " +
+               text_of("%.6g", then.distance()) + " m apart at the given pose";
     }
     return reason;
   }
@@ -177,8 +177,8 @@ std::vector<std::string> start_pose_notes(const Model& model, const SystemState&
     if (move.norm() <= kNotedMove && turn <= kNotedTurn) continue;
     std::string how;
     if (move.norm() > kNotedMove)
-      how = text_of("%.4g", move.norm()) + " m (" + text_of("%.4g", move.x()) + ", " + text_of("%.4g", move.y()) + ", " +
-            text_of("%.4g", move.z()) + ")";
+      how = text_of("%.4g", move.norm()) + " m (" + text_of("%.4g", move.x()) + ", " + text_of("%.4g", move.y()) +
+            ", " + text_of("%.4g", move.z()) + ")";
     if (turn > kNotedTurn) how += (how.empty() ? "" : " and ") + text_of("%.4g", turn / kDegree) + " deg";
     notes.push_back("bodies." + b.name + ": starts " + how + " from its given pose: " + reasons.why(body));
   }
