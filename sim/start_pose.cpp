@@ -13,9 +13,9 @@
 namespace stillhook {
 namespace {
 
-constexpr double kRounding = 0.05;   // m: of poses in a case file
-constexpr double kDraftError = 1.0;  // m: what a case may be wrong about how deep hulls float under a standing load
-constexpr double kNotedMove = 0.5;   // m
+constexpr double kPoseRounding = 0.05;  // m: of poses in a case file
+constexpr double kDraftError = 1.0;     // m: what a case may be wrong about how deep hulls float under a standing load
+constexpr double kNotedMove = 0.5;      // m
 constexpr double kNotedTurn = 5.0 * kDegree;
 
 int body_named(const Specification& spec, const std::string& name) {
@@ -57,7 +57,7 @@ std::optional<int> stands_on(const MultibodySystem& system, int body, const Syst
     const auto* contact = dynamic_cast<const Contact*>(element.get());
     if (!contact || contact->options().active_from_phase > 0) continue;
     const int points = contact->options().body;
-    if (points != kWorld && together[static_cast<std::size_t>(points)] && smallest_gap(*contact, at) < kRounding)
+    if (points != kWorld && together[static_cast<std::size_t>(points)] && smallest_gap(*contact, at) < kPoseRounding)
       return contact->options().surface.body;
   }
   return {};
@@ -157,7 +157,7 @@ std::vector<std::size_t> wires_that_hold(const Specification& spec, const Multib
     const bool from_is_lower = then.p_from.z() < then.p_to.z();
     const int lower = from_is_lower ? then.from : then.to;
     const bool stands = stands_on(system, lower, given) && stands_on(system, lower, loose);
-    if (now.distance() - then.distance() <= (stands ? kDraftError : kRounding)) continue;
+    if (now.distance() - then.distance() <= (stands ? kDraftError : kPoseRounding)) continue;
     hold.push_back(i);
     const double from_fell = then.p_from.z() - now.p_from.z(), to_fell = then.p_to.z() - now.p_to.z();
     if (from_is_lower ? from_fell > to_fell : to_fell > from_fell) hold_from_above.push_back(i);

@@ -9,7 +9,7 @@ namespace stillhook {
 namespace {
 
 constexpr double kProbe = 1e-5;         // m, rad or share: of the drive that moves most, for dQ/ds
-constexpr double kSoftest = 1e-6;       // 1/s2: what nothing holds is left where it is
+constexpr double kFreeMotion = 1e-6;    // 1/s2: what nothing holds is left where it is
 constexpr int kCorrections = 60;        // Newton's iterations of one stretch
 constexpr double kLongestMove = 100.0;  // m predicted at once
 constexpr double kLongestTurn = 0.15;   // rad predicted at once
@@ -128,7 +128,7 @@ class DrivePath {
     system_.jacobian(next, 0.0, work_);
     const double scale = system_.mass().trace() / std::max(1, n);
     MatrixX A(n + m, n + m);
-    A.topLeftCorner(n, n) = kSoftest * system_.mass() - work_.jacobian.stiffness();
+    A.topLeftCorner(n, n) = kFreeMotion * system_.mass() - work_.jacobian.stiffness();
     A.topRightCorner(n, m) = scale * C_q.transpose();
     A.bottomLeftCorner(m, n) = scale * C_q;
     A.bottomRightCorner(m, m).setZero();

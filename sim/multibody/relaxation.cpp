@@ -8,14 +8,14 @@
 namespace stillhook {
 namespace {
 
-constexpr int kMaxMotions = 4000;      // of up to 3 m: a lift of 3,000 m of wire and more
-constexpr double kAtRest = 1e-7;       // out of balance over the largest weight: Newton's method takes over
-constexpr double kOpenJoint = 0.02;    // m or rad that a step may open a joint by
-constexpr double kSoftest = 1e-6;      // 1/s2
-constexpr double kStiffest = 1e10;     // 1/s2: above that of a short steel sling on a hook block
-constexpr double kKickLength = 0.05;   // m or rad, off an unstable equilibrium
-constexpr int kKicks = 8;              // equilibria that may prove unstable one after the other
-constexpr double kOutOfSight = 1.0e4;  // m that a body may move
+constexpr int kMaxMotions = 4000;       // of up to 3 m: a lift of 3,000 m of wire and more
+constexpr double kAtRest = 1e-7;        // out of balance over the largest weight: Newton's method takes over
+constexpr double kOpenJoint = 0.02;     // m or rad that a step may open a joint by
+constexpr double kSlowestCreep = 1e-6;  // 1/s2
+constexpr double kStiffest = 1e10;      // 1/s2: above that of a short steel sling on a hook block
+constexpr double kKickLength = 0.05;    // m or rad, off an unstable equilibrium
+constexpr int kKicks = 8;               // equilibria that may prove unstable one after the other
+constexpr double kOutOfSight = 1.0e4;   // m that a body may move
 
 class Relaxation {
  public:
@@ -113,7 +113,7 @@ class Relaxation {
     }
     // The reactions are those of the state that the step began in: with them the next stiffness is its own.
     state_.lambda = lambda_;
-    shift_ = std::clamp(shift_ * (after > 0.5 ? 0.3 : after > 0.0 ? 0.6 : 1.5), kSoftest, kStiffest);
+    shift_ = std::clamp(shift_ * (after > 0.5 ? 0.3 : after > 0.0 ? 0.6 : 1.5), kSlowestCreep, kStiffest);
   }
 
   const MultibodySystem& system_;
