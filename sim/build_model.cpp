@@ -214,8 +214,8 @@ class ModelBuilder {
   }
 
   // Newton's method on the lengths of the wires that hold a joint at its initial coordinate, with the wires of given
-  // slack out of the way; those get their lengths from the pose that comes out, at which they leave it alone. Wires that
-  // something falls without are left in: their lengths are those of the given pose.
+  // slack out of the way; those get their lengths from the pose that comes out, at which they leave it alone. Wires
+  // that something falls without are left in: their lengths are those of the given pose.
   void find_equilibrium() {
     std::vector<std::size_t> holding;
     std::vector<const Joint*> held;
