@@ -348,8 +348,9 @@ const Table& body_table() {
       const RollPitchYaw& a = static_cast<const S*>(s)->attitude;
       return Value(std::vector<double>{a.roll, a.pitch, a.yaw});
     };
-    t.vector("velocity_m_per_s", &S::velocity, unit::m_per_s, any_value(),
-             "Velocity of the origin at the start, world axes; of a static start too, whose pose is then the equilibrium.");
+    t.vector(
+        "velocity_m_per_s", &S::velocity, unit::m_per_s, any_value(),
+        "Velocity of the origin at the start, world axes; of a static start too, whose pose is then the equilibrium.");
     t.vector("angular_velocity_deg_per_s", &S::angular_velocity, unit::deg_per_s, any_value(),
              "Angular velocity at the start, body axes; of a static start too.");
     t.table("hull", &S::hull, &hull_table, "Wetted shape.").absent("dry");

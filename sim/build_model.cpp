@@ -184,13 +184,7 @@ class ModelBuilder {
 
   EquilibriumReport try_to_settle() {
     state().t = kCalm;
-    const SystemState before = state();
-    EquilibriumReport report;
-    if (other_) report = settle_stably(system(), state(), true);
-    if (!report.converged) {
-      state() = before;
-      report = settle_stably(system(), state());
-    }
+    const EquilibriumReport report = settle_stably(system(), state(), other_ != nullptr);
     state().t = 0.0;
     return report;
   }
@@ -220,8 +214,8 @@ class ModelBuilder {
   }
 
   // Newton's method on the lengths of the wires that hold a joint at its initial coordinate, with the wires of given
-  // slack out of the way; those get their lengths from the pose that comes out, at which they leave it alone. What falls
-  // without them hangs on them: their lengths are those of the given pose, and only the others keep out of the way.
+  // slack out of the way; those get their lengths from the pose that comes out, at which they leave it alone. Wires
+  // that something falls without are left in: their lengths are those of the given pose.
   void find_equilibrium() {
     std::vector<std::size_t> holding;
     std::vector<const Joint*> held;

@@ -13,9 +13,9 @@
 namespace stillhook {
 namespace {
 
-constexpr double kRounding = 0.05;     // m: of poses in a case file
-constexpr double kDraftError = 1.0;    // m: what a case may be wrong about how deep hulls float under a standing load
-constexpr double kNotedMove = 0.5;     // m
+constexpr double kPoseRounding = 0.05;  // m: of poses in a case file
+constexpr double kDraftError = 1.0;     // m: what a case may be wrong about how deep hulls float under a standing load
+constexpr double kNotedMove = 0.5;      // m
 constexpr double kNotedTurn = 5.0 * kDegree;
 
 int body_named(const Specification& spec, const std::string& name) {
@@ -57,7 +57,7 @@ std::optional<int> stands_on(const MultibodySystem& system, int body, const Syst
     const auto* contact = dynamic_cast<const Contact*>(element.get());
     if (!contact || contact->options().active_from_phase > 0) continue;
     const int points = contact->options().body;
-    if (points != kWorld && together[static_cast<std::size_t>(points)] && smallest_gap(*contact, at) < kRounding)
+    if (points != kWorld && together[static_cast<std::size_t>(points)] && smallest_gap(*contact, at) < kPoseRounding)
       return contact->options().surface.body;
   }
   return {};
@@ -115,8 +115,8 @@ class Reasons {
       if (off <= most) continue;
       most = off;
       reason = "wire '" + spec_.wires[i].name + "' is " + text_of("%.6g", model_.initial_lengths()[i]) +
-               " m long without load and " + text_of("%.6g", now.distance()) +
-               " m with it, its ends are " + text_of("%.6g", then.distance()) + " m apart at the given pose";
+               " m long without load and " + text_of("%.6g", now.distance()) + " m with it, its ends are " +
+               text_of("%.6g", then.distance()) + " m apart at the given pose";
     }
     return reason;
   }
@@ -157,7 +157,7 @@ std::vector<std::size_t> wires_that_hold(const Specification& spec, const Multib
     const bool from_is_lower = then.p_from.z() < then.p_to.z();
     const int lower = from_is_lower ? then.from : then.to;
     const bool stands = stands_on(system, lower, given) && stands_on(system, lower, loose);
-    if (now.distance() - then.distance() <= (stands ? kDraftError : kRounding)) continue;
+    if (now.distance() - then.distance() <= (stands ? kDraftError : kPoseRounding)) continue;
     hold.push_back(i);
     const double from_fell = then.p_from.z() - now.p_from.z(), to_fell = then.p_to.z() - now.p_to.z();
     if (from_is_lower ? from_fell > to_fell : to_fell > from_fell) hold_from_above.push_back(i);
@@ -177,8 +177,8 @@ std::vector<std::string> start_pose_notes(const Model& model, const SystemState&
     if (move.norm() <= kNotedMove && turn <= kNotedTurn) continue;
     std::string how;
     if (move.norm() > kNotedMove)
-      how = text_of("%.4g", move.norm()) + " m (" + text_of("%.4g", move.x()) + ", " + text_of("%.4g", move.y()) + ", " +
-            text_of("%.4g", move.z()) + ")";
+      how = text_of("%.4g", move.norm()) + " m (" + text_of("%.4g", move.x()) + ", " + text_of("%.4g", move.y()) +
+            ", " + text_of("%.4g", move.z()) + ")";
     if (turn > kNotedTurn) how += (how.empty() ? "" : " and ") + text_of("%.4g", turn / kDegree) + " deg";
     notes.push_back("bodies." + b.name + ": starts " + how + " from its given pose: " + reasons.why(body));
   }

@@ -1,5 +1,5 @@
-// The start pose of a lift against the pose that its case gives: which wires hold what they are fastened to, and what has
-// moved and why.
+// The start pose of a lift against the pose that its case gives: which wires hold what they are fastened to, and what
+// has moved and why.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace stillhook {
 
-/// Of the wires in `candidates`, which `loose` was found without: those that hold something, since their ends are further
-/// apart there than at the pose `given`. A load that stands in both poses, and has only sunk or risen with what floats
-/// under it, is not held. Wires under which something has fallen come first and alone: what hangs on it may hang again
-/// when they hold.
+/// Of the wires in `candidates`, which `loose` was found without: those that hold something, since their ends are
+/// further apart there than at the pose `given`. A load that stands in both poses, and has only sunk or risen with what
+/// floats under it, is not held. Wires under which something has fallen come first and alone: what hangs on it may hang
+/// again when they hold.
 std::vector<std::size_t> wires_that_hold(const Specification& spec, const MultibodySystem& system,
                                          const std::vector<std::size_t>& candidates, const SystemState& given,
                                          const SystemState& loose);

@@ -12,7 +12,8 @@ namespace stillhook {
 /// Moves `state`, a stable equilibrium in calm water (state.t < 0), and its drives until every goal is met, by Newton's
 /// method on the drives; with a single goal never out of the interval that is known to hold the answer. Throws
 /// SpecificationError naming `entry` and the goal that is out of reach, with the nearest that was found.
-void reach_goals(const Model& model, SystemState& state, const std::vector<StaticGoal>& goals, const std::string& entry);
+void reach_goals(const Model& model, SystemState& state, const std::vector<StaticGoal>& goals,
+                 const std::string& entry);
 
 /// Throws the SpecificationError of a lift that has no stable equilibrium.
 [[noreturn]] void refuse_without_equilibrium(const EquilibriumReport& report, const std::string& entry);

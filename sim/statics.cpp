@@ -6,7 +6,7 @@
 namespace stillhook {
 namespace {
 
-constexpr double kCalm = -1.0;  // s: before the waves start
+constexpr double kStillWater = -1.0;  // s: before the waves start
 
 }  // namespace
 
@@ -33,7 +33,7 @@ double coordinate_value(const Model& model, const SystemState& state, const Coor
 void solve_static(const Model& model, SystemState& state, const std::vector<StaticGoal>& goals,
                   const std::string& entry, bool close) {
   const double t = state.t;
-  state.t = kCalm;
+  state.t = kStillWater;
   const EquilibriumReport report = settle_stably(model.system(), state, close);
   if (!report.converged) refuse_without_equilibrium(report, entry);
   reach_goals(model, state, goals, entry);
@@ -43,7 +43,7 @@ void solve_static(const Model& model, SystemState& state, const std::vector<Stat
 void move_static(const Model& model, SystemState& state, const std::vector<DriveState>& to,
                  const std::vector<StaticGoal>& goals, const std::string& entry) {
   const double t = state.t;
-  state.t = kCalm;
+  state.t = kStillWater;
   const EquilibriumReport report = follow_drives(model.system(), state, to);
   if (!report.converged) refuse_without_equilibrium(report, entry);
   reach_goals(model, state, goals, entry);

@@ -20,13 +20,13 @@ struct StaticGoal {
 double coordinate_value(const Model& model, const SystemState& state, const CoordinateSpec& coordinate);
 
 /// Moves `state` to the stable equilibrium at its drive positions in calm water; with goals, moves their drives too.
-/// `close`: bodies, drives and lambda are already nearly there. Throws SpecificationError naming `entry` when there is no
-/// stable equilibrium or a goal is out of reach.
+/// `close`: bodies, drives and lambda are already nearly there. Throws SpecificationError naming `entry` when there is
+/// no stable equilibrium or a goal is out of reach.
 void solve_static(const Model& model, SystemState& state, const std::vector<StaticGoal>& goals,
                   const std::string& entry, bool close = false);
 
-/// The same from the equilibrium `state` with its drives moved slowly to `to` (see drive_path.h), then to the goals: the
-/// pose that the lift itself comes to.
+/// The same from the equilibrium `state` with its drives moved slowly to `to` (see drive_path.h), then to the goals:
+/// the pose that the lift itself comes to.
 void move_static(const Model& model, SystemState& state, const std::vector<DriveState>& to,
                  const std::vector<StaticGoal>& goals, const std::string& entry);
 

@@ -8,17 +8,17 @@
 namespace stillhook {
 namespace {
 
-constexpr double kProbe = 1e-5;          // m, rad or share: of the drive that moves most, for dQ/ds
-constexpr double kSoftest = 1e-6;        // 1/s2: what nothing holds is left where it is
-constexpr int kCorrections = 60;         // Newton's iterations of one stretch
-constexpr double kLongestMove = 100.0;   // m predicted at once
-constexpr double kLongestTurn = 0.15;    // rad predicted at once
-constexpr double kMissedMove = 0.3;      // m off the prediction that is always accepted,
-constexpr double kMissedTurn = 0.03;     // rad the same,
-constexpr double kMissedShare = 0.15;    // and in addition this share of what was predicted
-constexpr double kShortest = 1e-3;       // m, rad or share of a stretch: below it the lift lets go
-constexpr double kFall = 0.02;           // m, rad or share: stretch over which a lift that lets go is moved on
-constexpr int kFalls = 200;              // that a way may have
+constexpr double kProbe = 1e-5;         // m, rad or share: of the drive that moves most, for dQ/ds
+constexpr double kFreeMotion = 1e-6;    // 1/s2: what nothing holds is left where it is
+constexpr int kCorrections = 60;        // Newton's iterations of one stretch
+constexpr double kLongestMove = 100.0;  // m predicted at once
+constexpr double kLongestTurn = 0.15;   // rad predicted at once
+constexpr double kMissedMove = 0.3;     // m off the prediction that is always accepted,
+constexpr double kMissedTurn = 0.03;    // rad the same,
+constexpr double kMissedShare = 0.15;   // and in addition this share of what was predicted
+constexpr double kShortest = 1e-3;      // m, rad or share of a stretch: below it the lift lets go
+constexpr double kFall = 0.02;          // m, rad or share: stretch over which a lift that lets go is moved on
+constexpr int kFalls = 200;             // that a way may have
 
 struct Size {
   double move = 0.0, turn = 0.0;  // m, rad
@@ -121,15 +121,14 @@ class DrivePath {
     system_.forces(next, 0.0, work_, Q);
     SystemState probe = next;
     const double by = kProbe / length_;
-    for (std::size_t d = 0; d < to_.size(); ++d)
-      probe.drive[d].position += by * (to_[d].position - begin_[d].position);
+    for (std::size_t d = 0; d < to_.size(); ++d) probe.drive[d].position += by * (to_[d].position - begin_[d].position);
     system_.forces(probe, 0.0, work_, Q_on);
     MatrixX C_q;
     system_.constraint_jacobian(next, C_q);
     system_.jacobian(next, 0.0, work_);
     const double scale = system_.mass().trace() / std::max(1, n);
     MatrixX A(n + m, n + m);
-    A.topLeftCorner(n, n) = kSoftest * system_.mass() - work_.jacobian.stiffness();
+    A.topLeftCorner(n, n) = kFreeMotion * system_.mass() - work_.jacobian.stiffness();
     A.topRightCorner(n, m) = scale * C_q.transpose();
     A.bottomLeftCorner(m, n) = scale * C_q;
     A.bottomRightCorner(m, m).setZero();

@@ -1,7 +1,7 @@
 // Equilibria along a way of the drives: a lift whose winches turn slowly goes from one stable equilibrium to the next.
-// Each stretch of the way is predicted along the tangent (K dq = -dQ/ds ds with the joints closed), corrected by Newton's
-// method and kept if the lift came out stable and near where it was predicted; else the stretch is shortened (Allgower &
-// Georg 1990). Where the way has an end, at a fall or a snap, the lift moves on as in relaxation.h.
+// Each stretch of the way is predicted along the tangent (K dq = -dQ/ds ds with the joints closed), corrected by
+// Newton's method and kept if the lift came out stable and near where it was predicted; else the stretch is shortened
+// (Allgower & Georg 1990). Where the way has an end, at a fall or a snap, the lift moves on as in relaxation.h.
 #pragma once
 
 #include <vector>

@@ -28,8 +28,8 @@ void move_bodies(SystemState& state, const VectorX& xi);
 /// Scales a motion back to the largest that one step may make; returns the factor.
 double limit_motion(VectorX& xi);
 
-/// How far a system is out of balance, as a share of the largest body's weight; a moment counts as a force at the body's
-/// radius of gyration.
+/// How far a system is out of balance, as a share of the largest body's weight; a moment counts as a force at the
+/// body's radius of gyration.
 class BalanceMeasure {
  public:
   explicit BalanceMeasure(const MultibodySystem& system);

@@ -8,14 +8,14 @@
 namespace stillhook {
 namespace {
 
-constexpr int kMaxMotions = 4000;        // of up to 3 m: a lift of 3,000 m of wire and more
-constexpr double kAtRest = 1e-7;         // out of balance over the largest weight: Newton's method takes over
-constexpr double kOpenJoint = 0.02;      // m or rad that a step may open a joint by
-constexpr double kSoftest = 1e-6;        // 1/s2
-constexpr double kStiffest = 1e10;       // 1/s2: above that of a short steel sling on a hook block
-constexpr double kKickLength = 0.05;     // m or rad, off an unstable equilibrium
-constexpr int kKicks = 8;                // equilibria that may prove unstable one after the other
-constexpr double kOutOfSight = 1.0e4;    // m that a body may move
+constexpr int kMaxMotions = 4000;       // of up to 3 m: a lift of 3,000 m of wire and more
+constexpr double kAtRest = 1e-7;        // out of balance over the largest weight: Newton's method takes over
+constexpr double kOpenJoint = 0.02;     // m or rad that a step may open a joint by
+constexpr double kSlowestCreep = 1e-6;  // 1/s2
+constexpr double kStiffest = 1e10;      // 1/s2: above that of a short steel sling on a hook block
+constexpr double kKickLength = 0.05;    // m or rad, off an unstable equilibrium
+constexpr int kKicks = 8;               // equilibria that may prove unstable one after the other
+constexpr double kOutOfSight = 1.0e4;   // m that a body may move
 
 class Relaxation {
  public:
@@ -51,7 +51,10 @@ class Relaxation {
       go_or_shorten();
       if (shift_ > kStiffest || lost(begin)) break;
     }
-    if (xi_.allFinite()) report.motion = describe_motion(system_, xi_);
+    if (xi_.size() > 0 && xi_.allFinite()) {
+      report.motion = describe_motion(system_, xi_);
+      report.worst_body = mover(system_, xi_);
+    }
     return report;
   }
 
@@ -110,7 +113,7 @@ class Relaxation {
     }
     // The reactions are those of the state that the step began in: with them the next stiffness is its own.
     state_.lambda = lambda_;
-    shift_ = std::clamp(shift_ * (after > 0.5 ? 0.3 : after > 0.0 ? 0.6 : 1.5), kSoftest, kStiffest);
+    shift_ = std::clamp(shift_ * (after > 0.5 ? 0.3 : after > 0.0 ? 0.6 : 1.5), kSlowestCreep, kStiffest);
   }
 
   const MultibodySystem& system_;
@@ -137,15 +140,19 @@ EquilibriumReport relax(const MultibodySystem& system, SystemState& state) {
 
 EquilibriumReport settle_stably(const MultibodySystem& system, SystemState& state, bool close) {
   const SystemState begin = state;
-  EquilibriumReport report = solve_equilibrium(system, state, close);
-  if (report.converged && weakest_motion(system, state).stable()) return report;
-  state = begin;
+  EquilibriumReport report;
+  for (int attempt = close ? 0 : 1; attempt < 2; ++attempt) {
+    report = solve_equilibrium(system, state, attempt == 0);
+    if (report.converged && weakest_motion(system, state).stable()) return report;
+    state = begin;
+  }
   for (int kick = 0; kick < kKicks; ++kick) {
     report = relax(system, state);
     if (!report.converged) return report;
     const WeakestMotion weakest = weakest_motion(system, state);
     if (weakest.stable()) return report;
     report.motion = describe_motion(system, weakest.motion);
+    report.worst_body = mover(system, weakest.motion);
     move_bodies(state, kKickLength * weakest.motion);
   }
   report.converged = false;

@@ -4,8 +4,8 @@
 //   M xi' = Q - C_q^T lambda        C(q) = 0
 //
 // by implicit steps of length 1/s, s (1/s2) as in equilibrium.h. A step is kept only if the forces do positive work
-// along it (trapezoidal rule), so that energy falls whatever s is: the motion ends where a slowly let go lift would come
-// to rest, and no contact or slack wire is jumped over. (Day 1965.)
+// along it (trapezoidal rule), so that energy falls whatever s is: the motion ends where a slowly let go lift would
+// come to rest, and no contact or slack wire is jumped over. (Day 1965.)
 #pragma once
 
 #include "sim/multibody/equilibrium.h"

@@ -9,6 +9,20 @@ namespace {
 // 1/s2: a disturbance grows by e in 300 s, no faster than the slowest drift of a mooring; rounding is far below.
 constexpr double kUnstable = 1e-5;
 
+// A turn counts as what it moves at the radius of gyration.
+int largest_entry(const MultibodySystem& system, const VectorX& xi) {
+  int largest = 0;
+  double most = -1.0;
+  for (int i = 0; i < xi.size(); ++i) {
+    const RigidBody& b = system.bodies[static_cast<std::size_t>(i / 6)];
+    const double arm = i % 6 < 3 ? 1.0 : std::sqrt(b.inertia.trace() / (3.0 * b.mass));
+    if (arm * std::abs(xi[i]) <= most) continue;
+    most = arm * std::abs(xi[i]);
+    largest = i;
+  }
+  return largest;
+}
+
 }  // namespace
 
 WeakestMotion weakest_motion(const MultibodySystem& system, SystemState& state) {
@@ -45,19 +59,14 @@ WeakestMotion weakest_motion(const MultibodySystem& system, SystemState& state) 
   return weakest;
 }
 
+std::string mover(const MultibodySystem& system, const VectorX& xi) {
+  return system.bodies[static_cast<std::size_t>(largest_entry(system, xi) / 6)].name;
+}
+
 std::string describe_motion(const MultibodySystem& system, const VectorX& xi) {
   static constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "roll", "pitch", "yaw"};
-  int largest = 0;
-  double most = -1.0;
-  for (int i = 0; i < xi.size(); ++i) {
-    const RigidBody& b = system.bodies[static_cast<std::size_t>(i / 6)];
-    const double arm = i % 6 < 3 ? 1.0 : std::sqrt(b.inertia.trace() / (3.0 * b.mass));
-    if (arm * std::abs(xi[i]) <= most) continue;
-    most = arm * std::abs(xi[i]);
-    largest = i;
-  }
-  const std::string body = "'" + system.bodies[static_cast<std::size_t>(largest / 6)].name + "'";
-  return body + " in " + (largest % 6 < 3 && xi[largest] < 0.0 ? "-" : "") + kNames[largest % 6];
+  const int largest = largest_entry(system, xi);
+  return "'" + mover(system, xi) + "' in " + (largest % 6 < 3 && xi[largest] < 0.0 ? "-" : "") + kNames[largest % 6];
 }
 
 }  // namespace stillhook

@@ -28,7 +28,8 @@ struct LiftParts {
   BodySpec& barge(const std::string& name, double mass, const Vector3& size, double cog_z) {
     BodySpec& b = body(name, mass, Vector3(0, 0, 0), 0.3 * size.x());
     b.cog = Vector3(0, 0, cog_z);
-    b.inertia = mass * Vector3(0.1 * size.y() * size.y(), 0.1 * size.x() * size.x(), 0.1 * size.x() * size.x()).asDiagonal();
+    b.inertia =
+        mass * Vector3(0.1 * size.y() * size.y(), 0.1 * size.x() * size.x(), 0.1 * size.x() * size.x()).asDiagonal();
     b.hull.shape = HullSpec::Shape::box;
     b.hull.size = size;
     b.position.z() = 0.5 * size.z() - mass / (spec.sea.density * size.x() * size.y());

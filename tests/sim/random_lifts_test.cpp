@@ -19,8 +19,8 @@ struct Draw {
 
 struct RandomLift {
   LiftParts lift;
-  double weight = 0.0;        // N, of the load
-  std::string load_wire;      // one that carries the load
+  double weight = 0.0;    // N, of the load
+  std::string load_wire;  // one that carries the load
   bool stands = false;
 };
 

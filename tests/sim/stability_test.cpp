@@ -58,8 +58,7 @@ TEST_CASE("relaxation: a ball that is let go falls 1,000 m and hangs on its line
       if (r.norm() <= 1000.0) return;
       Matrix6 K = Matrix6::Zero();
       K.topLeftCorner<3, 3>() =
-          -1e6 * (e * e.transpose() +
-                  (r.norm() - 1000.0) / r.norm() * (Matrix3::Identity() - e * e.transpose()));
+          -1e6 * (e * e.transpose() + (r.norm() - 1000.0) / r.norm() * (Matrix3::Identity() - e * e.transpose()));
       out.add_stiffness(0, 0, K);
     }
   };

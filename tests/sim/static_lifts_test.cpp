@@ -139,8 +139,7 @@ TEST_CASE("statics: a load is lowered by 180 to 2,950 m on one wire, by travels 
     CHECK(z(1) == Approx(38.0 - (28.0 + depth) * (1.0 + share)).margin(1e-6));
     CHECK(z(2) == Approx(5.0).margin(1e-9));
     CHECK(z(3) == Approx(10.0 - depth).margin(1e-9));
-    CHECK(operation.equilibria[3].drive[0].position ==
-          Approx(28.0 - (28.0 + depth) / (1.0 + share)).margin(1e-6));
+    CHECK(operation.equilibria[3].drive[0].position == Approx(28.0 - (28.0 + depth) / (1.0 + share)).margin(1e-6));
     for (int i = 1; i < 4; ++i) CHECK(relaxation_confirms(model, operation.equilibria[i], 0.2, 1e-3));
   }
 }
@@ -251,8 +250,8 @@ TEST_CASE("statics: a body clamped to the world is in equilibrium", "[statics]")
   clamp.child = "float";
   lift.spec.joints.push_back(clamp);
   const Model model = build_model(lift.spec);
-  CHECK(model.initial_state().body[0].p_WC.norm() == 0.0);
+  CHECK(model.initial_state().body[0].p_WC.norm() < 1e-10);  // joints are closed to that
   Vector3 force, moment;
   model.system().joint_reaction(model.initial_state(), 0, force, moment);
-  CHECK((force - Vector3(0, 0, 1e3 * kG)).norm() < 1e-6);
+  CHECK((force - Vector3(0, 0, 1e3 * kG)).norm() < 1e-4);  // 1e-9 of the weight, tenfold
 }

@@ -1,7 +1,7 @@
-// Equal uniform bars, hinged end to end, between two fixed points of one height, the last through a massless elastic line:
-// the discrete catenary. With the horizontal pull H and the vertical pull V at the left end, bar i has the slope
-// tan(th_i) = (V - (i + 1/2) w) / H (moments about its hinge), the line that of the pull in it. H and V by Newton's method
-// on the two closures. (Irvine 1981, ch. 1, for bars.)
+// Equal uniform bars, hinged end to end, between two fixed points of one height, the last through a massless elastic
+// line: the discrete catenary. With the horizontal pull H and the vertical pull V at the left end, bar i has the slope
+// tan(th_i) = (V - (i + 1/2) w) / H (moments about its hinge), the line that of the pull in it. H and V by Newton's
+// method on the two closures. (Irvine 1981, ch. 1, for bars.)
 #pragma once
 
 #include <Eigen/Dense>
