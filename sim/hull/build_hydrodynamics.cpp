@@ -14,6 +14,9 @@
 namespace stillhook {
 namespace {
 
+// Share of the sea's energy in the limit of short waves from which on a report says so, 1.
+constexpr double kMuchInLimit = 0.1;
+
 double reference_height_of(const std::vector<HydrodynamicsBody>& bodies, std::size_t i) {
   const std::array<HullAfloat, 1> first{bodies.front().afloat};
   return i == 0 ? 0.0 : reference_height(first, bodies[i].afloat);
@@ -130,14 +133,24 @@ std::unique_ptr<Diffraction> build_diffraction(const std::vector<HydrodynamicsBo
     }
     if (c.excitation.empty() || !waves || waves->calm()) return nullptr;
     const DiffractionTable& table = *table_for(set, incident, headings);
-    const bool cut = method.beyond == PanelMethodSpec::Beyond::cut;
-    auto diffraction = std::make_unique<Diffraction>(std::move(waves), table, headings,
-                                                           cut ? 1.0 : options.negligible_energy, entry_of(first));
+    using Beyond = PanelMethodSpec::Beyond;
+    auto diffraction = std::make_unique<Diffraction>(
+        std::move(waves), table, headings, method.beyond == Beyond::cut ? 1.0 : options.negligible_energy,
+        entry_of(first), method.beyond == Beyond::limit ? ShortWaves::limit : ShortWaves::left_out);
     if (diffraction->share_left_out() > 0.0) {
       std::ostringstream sentence;
       sentence.precision(2);
       sentence << first.name << ": " << 100.0 * diffraction->share_left_out()
                << " % of the sea's energy lies beyond the hull's coefficients and acts without diffraction";
+      warnings.push_back(sentence.str());
+    }
+    if (diffraction->share_in_limit() > kMuchInLimit) {
+      std::ostringstream sentence;
+      sentence.precision(2);
+      sentence << first.name << ": " << 100.0 * diffraction->share_in_limit() << " % of the sea's energy lies above "
+               << table.highest_frequency()
+               << " rad/s and is diffracted as in the limit of short waves; a higher panel_method.highest_rad_per_s "
+                  "computes it";
       warnings.push_back(sentence.str());
     }
     return diffraction;
