@@ -9,6 +9,7 @@
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/radiation_march.h"
 #include "sim/hull/radiation_memory.h"
+#include "sim/hull/state_space_cache.h"
 #include "sim/hull/state_space_radiation.h"
 
 namespace stillhook {
@@ -189,20 +190,17 @@ StateSpaceFit scaled(StateSpaceFit fit, const VectorX& S) {
   return fit;
 }
 
-std::shared_ptr<const StateSpaceFit> state_space_for(const std::shared_ptr<const HydrodynamicCoefficients>& set,
-                                                     double tolerance) {
-  static std::mutex mutex;
-  static std::map<std::pair<const void*, double>,
-                  std::pair<std::weak_ptr<const HydrodynamicCoefficients>, std::shared_ptr<const StateSpaceFit>>>
-      known;
-  const std::lock_guard lock(mutex);
-  auto& entry = known[{set.get(), tolerance}];
-  if (!entry.second || entry.first.lock() != set) {
-    StateSpaceOptions options;
-    options.tolerance = tolerance;
-    entry = {set, std::make_shared<const StateSpaceFit>(fit_state_space(*set, options).fit)};
-  }
-  return entry.second;
+/// The reduced model where one meets the tolerance, else the retardation functions, and a warning that says so.
+std::unique_ptr<const Radiation> reduced_radiation(const HydrodynamicCoefficients& c, const PanelMethodSpec& method,
+                                                   const VectorX& memory, double kernel_tolerance,
+                                                   const BodySpec& body, std::vector<std::string>& warnings) {
+  const KnownStateSpace known = known_state_space(c, method.fit_tolerance);
+  if (known.fit) return std::make_unique<StateSpaceRadiation>(scaled(*known.fit, memory));
+  if (c.retardation.empty()) throw SpecificationError(c.source, "", known.fault);
+  warnings.push_back(body.name + ": " + known.fault +
+                     ". The retardation functions are used instead, which take longer to run; a larger "
+                     "panel_method.fit_tolerance accepts a coarser state space");
+  return std::make_unique<RadiationMemory>(scaled(truncated(c.retardation, kernel_tolerance), memory), c.modes());
 }
 
 }  // namespace
@@ -267,7 +265,7 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
         radiation = std::make_unique<RadiationMemory>(
             scaled(truncated(c.retardation, options.kernel_tolerance), memory), modes);
       } else if (model == RadiationModel::reduced) {
-        radiation = std::make_unique<StateSpaceRadiation>(scaled(*state_space_for(set, method.fit_tolerance), memory));
+        radiation = reduced_radiation(c, method, memory, options.kernel_tolerance, first, warnings);
       } else if (model == RadiationModel::direct) {
         std::vector<HullAfloat> afloat;
         for (const HydrodynamicsBody& body : bodies) afloat.push_back(body.afloat);

@@ -240,7 +240,8 @@ TEST_CASE("the water between two long hulls resonates, is damped and is found", 
   CHECK(free.gap_rise > 1.02 * damped.gap_rise);
   CHECK(free.gap_frequency > 0.95);
   CHECK(free.gap_frequency < 1.35);
-  CHECK_THAT(set.description, Catch::Contains("resonance of the gap"));
+  CHECK(set.gap_rise == free.gap_rise);
+  CHECK(set.gap_frequency == free.gap_frequency);
 }
 
 }  // namespace stillhook

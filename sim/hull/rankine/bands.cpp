@@ -89,7 +89,7 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
 int headings_for(const Layout& layout, const PanelMethodOptions& options) {
   if (options.headings > 0) return options.headings;
   double length = 0.0;
-  for (const Placement& p : layout.hulls) length = std::max({length, p.length, p.breadth});
+  for (const Placement& p : layout.hulls) length = std::max(length, std::hypot(p.length, p.breadth));
   const double highest = frequencies_of(options).back();
   const double k = highest * highest / options.gravity;
   return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));

@@ -15,7 +15,7 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
 FreeSurfaceGrid grid_of(const PanelBand& band);
 Beach beach_of(const PanelBand& band, const PanelMethodOptions& options);
 
-/// Headings around the circle that resolve exp(i k R cos b), R half the length of the longest hull, with a margin; or
+/// Headings around the circle that resolve exp(i k R cos b), R half the diagonal of the largest hull, with a margin; or
 /// what the options say.
 int headings_for(const Layout& layout, const PanelMethodOptions& options);
 
