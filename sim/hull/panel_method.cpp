@@ -39,20 +39,6 @@ std::pair<int, std::vector<double>> cubic_weights(const std::vector<double>& nod
   return {first, weights};
 }
 
-void require_options(const PanelMethodOptions& o) {
-  const auto bad = [](const char* field, const char* rule) { throw SpecificationError("panel method", field, rule); };
-  if (!(o.density > 0.0)) bad("density", "must be > 0");
-  if (!(o.gravity > 0.0)) bad("gravity", "must be > 0");
-  if (!(o.lowest > 0.0 && o.highest > o.lowest)) bad("highest", "must be above the lowest frequency, which must be > 0");
-  for (std::size_t i = 0; i < o.chosen.size(); ++i)
-    if (!(o.chosen[i] > 0.0) || (i > 0 && !(o.chosen[i] > o.chosen[i - 1])))
-      bad("chosen", "must be ascending frequencies > 0");
-  if (o.frequencies < 4) bad("frequencies", "must be at least 4");
-  if (o.headings != 0 && o.headings < 4) bad("headings", "must be at least 4, or 0");
-  if (!(o.gap_damping >= 0.0)) bad("gap_damping", "must be >= 0");
-  if (!(o.refinement > 0.0)) bad("refinement", "must be > 0");
-}
-
 template <class Scalar>
 using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -414,38 +400,6 @@ HydrodynamicCoefficients panel_method(const std::vector<PanelHull>& hulls, const
   require_options(options);
   PanelMethodReport own;
   return Computation(hulls, options, report ? *report : own, progress).run();
-}
-
-Eigen::MatrixXcd diffraction_by_solution(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
-                                         double frequency, const std::vector<double>& headings) {
-  require_options(options);
-  const Layout layout = place(hulls);
-  PanelMethodOptions one = options;
-  one.chosen = {frequency};
-  const PanelBand band = bands_of(layout, one).front();
-  const HullPanels panels = panels_of(hulls, layout, band.panel_length);
-  SurfacePanels surface = free_surface(panels, grid_of(band));
-  mark_gap(layout, panels, surface);
-  const Beach beach = beach_of(band, options);
-  const VectorX weight = panel_weights(panels, options.density);
-  const int count = static_cast<int>(headings.size());
-  Matrix<Complex> X = Matrix<Complex>::Zero(6 * hulls.size(), count);
-  for (const BoundaryClass& c : boundary_problem(panels, surface)) {
-    const ClassModes modes = modes_of(panels, layout, c.parity);
-    if (modes.modes.empty()) continue;
-    Matrix<Complex> v(panels.panels.size(), count);
-    for (int h = 0; h < count; ++h)
-      v.col(h) = -incident_velocity(panels, c.parity, frequency, headings[h], options.gravity);
-    const auto response = frequency_responses(c, surface, beach, options.gravity, {{frequency}}, {&v, 1});
-    const Matrix<Complex> weighted = weight.cast<Complex>().asDiagonal() * response.front().hull;
-    const Matrix<Complex> F =
-        Complex(0.0, -frequency) * (modes.normal.transpose().cast<Complex>() * weighted);
-    for (std::size_t k = 0; k < modes.modes.size(); ++k)
-      for (int h = 0; h < count; ++h)
-        X(modes.modes[k], h) = F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h],
-                                                         options.gravity);
-  }
-  return to_middle(layout).transpose().cast<Complex>() * X;
 }
 
 }  // namespace stillhook

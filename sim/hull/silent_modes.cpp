@@ -6,7 +6,7 @@
 namespace stillhook {
 namespace {
 
-constexpr double kSilent = 1e-5;
+constexpr double kNoRadiation = 1e-5;
 
 /// Largest |X| of the modes of a hull that are forces, or moments, as mode is.
 double largest_excitation(const ExcitationTable& X, int first, int count) {
@@ -31,13 +31,13 @@ std::vector<bool> silent_modes(const HydrodynamicCoefficients& c) {
     const double m = displaced_inertia(c, i);
     bool quiet = silent[static_cast<std::size_t>(i)];
     for (const FrequencyCoefficients& f : c.frequency)
-      quiet = quiet && std::abs(f.B(i, i)) <= kSilent * f.frequency * m &&
-              std::abs(f.A(i, i) - c.A_inf(i, i)) <= kSilent * m;
+      quiet = quiet && std::abs(f.B(i, i)) <= kNoRadiation * f.frequency * m &&
+              std::abs(f.A(i, i) - c.A_inf(i, i)) <= kNoRadiation * m;
     // A kernel of peak K does no more than K (a second)^2 of inertia.
     if (c.frequency.empty())
       for (const RetardationKernel& kernel : c.retardation.kernels)
         if (kernel.i == i && kernel.j == i)
-          for (const double K : kernel.value) quiet = quiet && std::abs(K) <= kSilent * m;
+          for (const double K : kernel.value) quiet = quiet && std::abs(K) <= kNoRadiation * m;
     silent[static_cast<std::size_t>(i)] = quiet;
   }
   return silent;
@@ -47,7 +47,7 @@ HydrodynamicCoefficients without_noise(HydrodynamicCoefficients c) {
   const std::vector<bool> silent = silent_modes(c);
   for (int i = 0; i < c.modes(); ++i) {
     if (!silent[static_cast<std::size_t>(i)]) continue;
-    if (std::abs(c.A_inf(i, i)) <= kSilent * displaced_inertia(c, i)) {
+    if (std::abs(c.A_inf(i, i)) <= kNoRadiation * displaced_inertia(c, i)) {
       c.A_inf.row(i).setZero();
       c.A_inf.col(i).setZero();
     }
@@ -59,7 +59,7 @@ HydrodynamicCoefficients without_noise(HydrodynamicCoefficients c) {
     }
     std::erase_if(c.retardation.kernels, [&](const RetardationKernel& k) { return k.i == i || k.j == i; });
     const int first = i - i % 3;
-    const double noise = kSilent * largest_excitation(c.excitation, first, 3);
+    const double noise = kNoRadiation * largest_excitation(c.excitation, first, 3);
     if (!c.excitation.empty() && largest_excitation(c.excitation, i, 1) <= noise)
       for (std::size_t n = static_cast<std::size_t>(i); n < c.excitation.value.size();
            n += static_cast<std::size_t>(c.excitation.modes))

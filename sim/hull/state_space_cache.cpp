@@ -4,7 +4,6 @@
 #include <fstream>
 #include <map>
 #include <mutex>
-#include <optional>
 
 #include "sim/hull/coefficient_source.h"
 #include "sim/hull/content_hash.h"
@@ -58,8 +57,9 @@ std::string text_of(const KnownStateSpace& known) {
   return out.str();
 }
 
-/// Nothing when the file is not what text_of() writes for a set of so many modes.
-std::optional<KnownStateSpace> read_fit(const std::filesystem::path& path, int modes) {
+}  // namespace
+
+std::optional<KnownStateSpace> read_state_space(const std::string& path, int modes) {
   std::ifstream in(path);
   std::string line, word;
   if (!std::getline(in, line) || line != kFirstLine || !(in >> word)) return std::nullopt;
@@ -102,7 +102,10 @@ std::optional<KnownStateSpace> read_fit(const std::filesystem::path& path, int m
   return known;
 }
 
-}  // namespace
+std::string state_space_file(const HydrodynamicCoefficients& set, double tolerance) {
+  const std::string folder = cache_folder();
+  return folder.empty() ? "" : (std::filesystem::path(folder) / ("fit-" + fit_key(set, tolerance) + ".txt")).string();
+}
 
 KnownStateSpace known_state_space(const HydrodynamicCoefficients& set, double tolerance) {
   static std::mutex mutex;
@@ -110,11 +113,9 @@ KnownStateSpace known_state_space(const HydrodynamicCoefficients& set, double to
   const std::string key = fit_key(set, tolerance);
   const std::lock_guard lock(mutex);
   if (const auto it = memory.find(key); it != memory.end()) return it->second;
-  std::filesystem::path file;
-  if (const std::string folder = cache_folder(); !folder.empty())
-    file = std::filesystem::path(folder) / ("fit-" + key + ".txt");
+  const std::string file = state_space_file(set, tolerance);
   if (!file.empty())
-    if (std::optional<KnownStateSpace> stored = read_fit(file, set.modes())) return memory[key] = std::move(*stored);
+    if (std::optional<KnownStateSpace> stored = read_state_space(file, set.modes())) return memory[key] = std::move(*stored);
   KnownStateSpace known;
   try {
     StateSpaceOptions options;
@@ -126,8 +127,8 @@ KnownStateSpace known_state_space(const HydrodynamicCoefficients& set, double to
   }
   if (!file.empty()) try {
       std::error_code error;
-      std::filesystem::create_directories(file.parent_path(), error);
-      WholeFile whole(file.string());
+      std::filesystem::create_directories(cache_folder(), error);
+      WholeFile whole(file);
       whole.write(text_of(known));
       whole.commit();
     } catch (const SpecificationError&) {

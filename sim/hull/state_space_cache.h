@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "sim/hull/state_space_fit.h"
@@ -19,5 +20,10 @@ struct KnownStateSpace {
 
 /// As fit_state_space() with this tolerance; never throws for a set that cannot be fitted.
 KnownStateSpace known_state_space(const HydrodynamicCoefficients& set, double tolerance);
+
+/// Where it is kept on disk; empty where there is no such place.
+std::string state_space_file(const HydrodynamicCoefficients& set, double tolerance);
+/// Nothing when the file is none that known_state_space() has written for a set of so many modes.
+std::optional<KnownStateSpace> read_state_space(const std::string& path, int modes);
 
 }  // namespace stillhook

@@ -170,7 +170,7 @@ bool meets(const Candidate& candidate, double tolerance) {
   return candidate.worst <= tolerance && candidate.report.beyond_band <= kBeyondBand;
 }
 
-bool outside(const Candidate& candidate) { return candidate.report.beyond_band > kBeyondBand; }
+bool resonates_outside(const Candidate& candidate) { return candidate.report.beyond_band > kBeyondBand; }
 
 /// w0 of passivity.h.
 double middle_of_band(const TransferData& data) { return data.frequency.back() / 3.0; }
@@ -266,7 +266,7 @@ Candidate fit_lowest_order(const TransferData& data, const std::vector<int>& mod
     Candidate candidate = fit_block(data, samples, modes, order, options);
     if (meets(candidate, options.tolerance)) return candidate;
     // One that resonates outside the data is taken for want of another only.
-    const bool better = outside(candidate) == outside(best) ? candidate.worst < best.worst : outside(best);
+    const bool better = resonates_outside(candidate) == resonates_outside(best) ? candidate.worst < best.worst : resonates_outside(best);
     if (better) best = std::move(candidate);
   }
   if (meets(best, options.acceptable)) return best;

@@ -8,6 +8,9 @@
 
 namespace stillhook::rankine {
 
+/// Throws SpecificationError("panel method") for options out of range.
+void require_options(const PanelMethodOptions& options);
+
 /// The parts of the band, ascending; the last frequency of each is the first of the next. Panels and memory are not
 /// counted yet.
 std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options);

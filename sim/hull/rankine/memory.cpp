@@ -9,8 +9,6 @@
 
 namespace stillhook {
 
-using rankine::Layout, rankine::Placement;
-
 double columns_at_once(const PanelBand& band, int hulls) {
   return std::max(1.5, 6.0 * hulls / band.classes) * static_cast<double>(band.frequencies.size());
 }
@@ -34,8 +32,8 @@ double wetted_area(const PanelHull& hull) {
   return area;
 }
 
-[[noreturn]] void refuse(const std::vector<PanelHull>& hulls, const Layout& layout, const PanelMethodOptions& options,
-                         double panel, double panels, double bytes) {
+[[noreturn]] void refuse_memory(const std::vector<PanelHull>& hulls, const rankine::Layout& layout,
+                         const PanelMethodOptions& options, double panel, double panels, double bytes) {
   std::size_t thinnest = 0;
   const auto width = [&](std::size_t k) { return std::min(layout.hulls[k].length, layout.hulls[k].breadth); };
   for (std::size_t k = 1; k < hulls.size(); ++k)
@@ -67,7 +65,7 @@ void measure_parts(const std::vector<PanelHull>& hulls, const Layout& layout, co
     // The kernels of the hull and its responses, by the area alone: so many panels are not even laid out.
     const double least = area / (band.panel_length * band.panel_length);
     if (const double bytes = 48.0 * classes * least * least; bytes > allowed)
-      refuse(hulls, layout, options, band.panel_length, least, bytes);
+      refuse_memory(hulls, layout, options, band.panel_length, least, bytes);
     const HullPanels panels = panels_of(hulls, layout, band.panel_length);
     const BoundarySizes sizes = sizes_of(panels, free_surface(panels, grid_of(band)));
     band.hull_panels = sizes.hull;
@@ -75,11 +73,11 @@ void measure_parts(const std::vector<PanelHull>& hulls, const Layout& layout, co
     band.classes = sizes.classes;
     band.bytes = sizes.bytes;
     if (const double bytes = bytes_at_most(band, static_cast<int>(hulls.size())); bytes > allowed)
-      refuse(hulls, layout, options, band.panel_length, sizes.hull + sizes.surface, bytes);
+      refuse_memory(hulls, layout, options, band.panel_length, sizes.hull + sizes.surface, bytes);
   }
   const double panel = 0.5 * bands.front().panel_length, count = 4.0 * bands.front().hull_panels;
   if (const double bytes = 48.0 * classes * count * count; bytes > allowed)
-    refuse(hulls, layout, options, panel, count, bytes);
+    refuse_memory(hulls, layout, options, panel, count, bytes);
 }
 
 }  // namespace rankine
