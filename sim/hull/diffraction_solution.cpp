@@ -28,12 +28,11 @@ Eigen::MatrixXcd diffraction_by_solution(const std::vector<PanelHull>& hulls, co
       v.col(h) = -incident_velocity(panels, c.parity, frequency, headings[h], options.gravity);
     const auto response = frequency_responses(c, surface, beach, options.gravity, {{frequency}}, {&v, 1});
     const Eigen::MatrixXcd weighted = weight.cast<Complex>().asDiagonal() * response.front().hull;
-    const Eigen::MatrixXcd F =
-        Complex(0.0, -frequency) * (modes.normal.transpose().cast<Complex>() * weighted);
+    const Eigen::MatrixXcd F = Complex(0.0, -frequency) * (modes.normal.transpose().cast<Complex>() * weighted);
     for (std::size_t k = 0; k < modes.modes.size(); ++k)
       for (int h = 0; h < count; ++h)
-        X(modes.modes[k], h) = F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h],
-                                                         options.gravity);
+        X(modes.modes[k], h) =
+            F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h], options.gravity);
   }
   return to_middle(layout).transpose().cast<Complex>() * X;
 }

@@ -115,7 +115,8 @@ KnownStateSpace known_state_space(const HydrodynamicCoefficients& set, double to
   if (const auto it = memory.find(key); it != memory.end()) return it->second;
   const std::string file = state_space_file(set, tolerance);
   if (!file.empty())
-    if (std::optional<KnownStateSpace> stored = read_state_space(file, set.modes())) return memory[key] = std::move(*stored);
+    if (std::optional<KnownStateSpace> stored = read_state_space(file, set.modes()))
+      return memory[key] = std::move(*stored);
   KnownStateSpace known;
   try {
     StateSpaceOptions options;

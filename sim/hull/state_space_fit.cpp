@@ -266,8 +266,8 @@ Candidate fit_lowest_order(const TransferData& data, const std::vector<int>& mod
     Candidate candidate = fit_block(data, samples, modes, order, options);
     if (meets(candidate, options.tolerance)) return candidate;
     // One that resonates outside the data is taken for want of another only.
-    const bool better = resonates_outside(candidate) == resonates_outside(best) ? candidate.worst < best.worst : resonates_outside(best);
-    if (better) best = std::move(candidate);
+    const bool alike = resonates_outside(candidate) == resonates_outside(best);
+    if (alike ? candidate.worst < best.worst : resonates_outside(best)) best = std::move(candidate);
   }
   if (meets(best, options.acceptable)) return best;
   std::ostringstream sentence;

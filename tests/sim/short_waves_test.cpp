@@ -62,8 +62,8 @@ TEST_CASE("the limit of short waves against the panel method above the band", "[
   const HydrodynamicCoefficients all = panel_method({hull}, options);
   // The same table as if its band ended at 2 rad/s.
   ExcitationTable cut = all.excitation;
-  const auto kept = static_cast<std::size_t>(std::upper_bound(cut.frequencies.begin(), cut.frequencies.end(), 2.0 + 1e-9) -
-                                             cut.frequencies.begin());
+  const auto kept = static_cast<std::size_t>(
+      std::upper_bound(cut.frequencies.begin(), cut.frequencies.end(), 2.0 + 1e-9) - cut.frequencies.begin());
   cut.frequencies.resize(kept);
   cut.value.resize(kept * cut.headings.size() * 6);
   const LinearFroudeKrylov incident(hull.mesh, 0.0, kDensity, kGravity);

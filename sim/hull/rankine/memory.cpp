@@ -33,7 +33,7 @@ double wetted_area(const PanelHull& hull) {
 }
 
 [[noreturn]] void refuse_memory(const std::vector<PanelHull>& hulls, const rankine::Layout& layout,
-                         const PanelMethodOptions& options, double panel, double panels, double bytes) {
+                                const PanelMethodOptions& options, double panel, double panels, double bytes) {
   std::size_t thinnest = 0;
   const auto width = [&](std::size_t k) { return std::min(layout.hulls[k].length, layout.hulls[k].breadth); };
   for (std::size_t k = 1; k < hulls.size(); ++k)
