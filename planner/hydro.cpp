@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "sim/hull/afloat.h"
+#include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
 
 namespace stillhook {
@@ -28,35 +30,13 @@ Model model_at_rest(const Case& c) {
   }
 }
 
-HullAfloat hull_afloat(const Case& c, const Model& at_rest, int body, const Mesh& mesh) {
-  const Pose X_WB = pose_of(at_rest.initial_state().body[body], at_rest.system().bodies[body]);
-  const MeshProperties size = properties_of(mesh);
-  const Vector3 middle = 0.5 * (size.low + size.high);
-  // Where the still water meets the vertical through the middle of the hull, along B's z axis.
-  const double waterline = -(X_WB.p.z() + X_WB.R(2, 0) * middle.x() + X_WB.R(2, 1) * middle.y()) / X_WB.R(2, 2);
-  return {&c.specification.bodies[body], &mesh, waterline, X_WB.p.x(), X_WB.p.y(), roll_pitch_yaw(X_WB.R).yaw};
-}
-
-/// Bodies whose hulls share a set.
+/// Bodies whose hulls have coefficients, each once: alone, or with the one whose set it shares.
 std::vector<std::vector<int>> groups_of(const Specification& spec) {
   using Kind = HydrodynamicsSpec::Kind;
   std::vector<std::vector<int>> groups;
-  std::vector<bool> taken(spec.bodies.size(), false);
-  const auto index_of = [&](const std::string& name) {
-    return static_cast<int>(
-        std::find_if(spec.bodies.begin(), spec.bodies.end(), [&](const BodySpec& b) { return b.name == name; }) -
-        spec.bodies.begin());
-  };
-  for (std::size_t i = 0; i < spec.bodies.size(); ++i) {
-    const std::string& other = spec.bodies[i].hydrodynamics.coupled_with;
-    if (other.empty() || taken[i]) continue;
-    groups.push_back({static_cast<int>(i), index_of(other)});
-    for (const int k : groups.back())
-      if (k < static_cast<int>(taken.size())) taken[k] = true;
-  }
-  for (std::size_t i = 0; i < spec.bodies.size(); ++i) {
-    const Kind kind = spec.bodies[i].hydrodynamics.kind;
-    if (!taken[i] && kind != Kind::none && kind != Kind::constant) groups.push_back({static_cast<int>(i)});
+  for (const std::vector<std::size_t>& together : coupled_hulls(spec.bodies)) {
+    const Kind kind = spec.bodies[together.front()].hydrodynamics.kind;
+    if (kind != Kind::none && kind != Kind::constant) groups.emplace_back(together.begin(), together.end());
   }
   return groups;
 }
@@ -74,14 +54,6 @@ double measured_speed() {
     least = std::min(least, seconds_since(begin));
   }
   return 2.0 * n * n * n / least;
-}
-
-constexpr double kIterations = 60.0;  // of GMRES
-
-/// Columns that GMRES solves at a time: the modes of a symmetry class at every frequency of the part.
-double columns_of(const HydroSet& set, const PanelBand& band) {
-  const double modes = 6.0 * static_cast<double>(set.bodies.size());
-  return std::max(1.5, modes / band.classes) * static_cast<double>(band.frequencies.size());
 }
 
 }  // namespace
@@ -105,26 +77,29 @@ std::string HydroSet::mode_name(int mode) const {
 
 std::vector<HydroSet> planned_sets(const Case& c) {
   const Specification& spec = c.specification;
-  const std::vector<std::vector<int>> groups = groups_of(spec);
   std::vector<HydroSet> sets;
+  std::vector<std::vector<int>> groups;
+  try {
+    groups = groups_of(spec);
+  } catch (const SpecificationError& error) {
+    throw located(c, error);
+  }
   if (groups.empty()) return sets;
   const Model at_rest = model_at_rest(c);
   for (const std::vector<int>& bodies : groups) {
     HydroSet set;
     set.bodies = bodies;
-    for (const int body : bodies) {
-      if (body >= static_cast<int>(spec.bodies.size())) continue;  // unknown name: build_model says so
-      set.names.push_back(spec.bodies[body].name);
-    }
+    for (const int body : bodies) set.names.push_back(spec.bodies[body].name);
     const HydrodynamicsSpec& h = spec.bodies[bodies.front()].hydrodynamics;
-    set.panels = h.kind == HydrodynamicsSpec::Kind::panels && set.names.size() == bodies.size();
+    set.panels = h.kind == HydrodynamicsSpec::Kind::panels;
     if (set.panels) {
       std::vector<Mesh> meshes(bodies.size());
       std::vector<HullAfloat> afloat;
       double panel = 0.0;
       for (std::size_t k = 0; k < bodies.size(); ++k) {
         meshes[k] = build_hull_mesh(spec.bodies[bodies[k]].hull);
-        afloat.push_back(hull_afloat(c, at_rest, bodies[k], meshes[k]));
+        afloat.push_back(hull_afloat(spec, at_rest.system(), at_rest.initial_state(),
+                                     static_cast<std::size_t>(bodies[k]), meshes[k]));
         const double own = spec.bodies[bodies[k]].hydrodynamics.panel_length;
         if (own > 0.0 && (panel == 0.0 || own < panel)) panel = own;
       }
@@ -171,11 +146,8 @@ void complete_sets(const Model& model, std::vector<HydroSet>& sets) {
 
 double largest_bytes(const HydroSet& set) {
   double bytes = 0.0;
-  for (const PanelBand& band : set.bands) {
-    const double F = band.surface_panels;
-    // N of a class once more in single precision, and the directions of GMRES of all its columns.
-    bytes = std::max(bytes, band.bytes + 4.0 * F * F + 16.0 * F * kIterations * columns_of(set, band));
-  }
+  for (const PanelBand& band : set.bands)
+    bytes = std::max(bytes, bytes_at_most(band, static_cast<int>(set.bodies.size())));
   return bytes;
 }
 
@@ -188,7 +160,7 @@ double estimated_seconds(const HydroSet& set) {
     // The images of a panel in the planes of symmetry serve all classes.
     work += n * kPair * (H + F) * (H + F);
     work += n * (8.0 / 3.0 * H * H * H + 2.0 * H * H * F + 2.0 * H * F * F);
-    work += n * kIterations * 4.0 * F * F * columns_of(set, band);  // two products of complex columns
+    work += n * kUsualIterations * 4.0 * F * F * columns_at_once(band, static_cast<int>(set.bodies.size()));  // two products of complex columns
   }
   constexpr double kIdle = 1.6;  // threads wait for each other, and for memory
   return kIdle * work / (measured_speed() * omp_get_max_threads());

@@ -295,9 +295,11 @@ const Table& panel_method_table() {
            "Self-checks of coefficients that may fail, by name, with commas in between.")
         .absent("none");
     t.choice<decltype(&S::beyond), S::Beyond>(
-        "beyond", &S::beyond, {{"refuse", S::Beyond::refuse}, {"cut", S::Beyond::cut}},
-        "A sea with energy beyond the coefficients: refused, or its waves there act without diffraction and the report "
-        "says how much.");
+        "beyond", &S::beyond, {{"limit", S::Beyond::limit}, {"cut", S::Beyond::cut}, {"refuse", S::Beyond::refuse}},
+        "Waves shorter than those of the coefficients: diffracted as in the limit of short waves, acting without "
+        "diffraction (the report says how much of the sea), or refused when they hold more than 1 % of its energy.");
+    t.number("memory_gb", &S::memory, unit::one, positive(),
+             "Most memory that a panel computation may take; a hull that needs more is refused before it begins.");
     return t.build();
   }();
   return table;

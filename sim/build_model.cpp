@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include "sim/element_builder.h"
+#include "sim/hull/afloat.h"
 #include "sim/hull/damping.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/immersion.h"
 #include "sim/hull/parting_hydrodynamics.h"
+#include "sim/hull/sea_band.h"
 #include "sim/lifting/wire.h"
 #include "sim/model.h"
 #include "sim/multibody/assembly.h"
@@ -337,29 +339,6 @@ class ModelBuilder {
     system().select_independent_rows(state());
   }
 
-  HullAfloat hull_afloat(std::size_t body, const Mesh& mesh) const {
-    const BodyKinematics& b = state().body[body];
-    const Vector3 Bo = b.p_WC - b.R_WB * spec().bodies[body].cog;
-    HullAfloat hull{&spec().bodies[body], &mesh, 0.0, Bo.x(), Bo.y(), roll_pitch_yaw(b.R_WB).yaw};
-    if (mesh.vertices.empty()) return hull;
-    // Where the still water meets the vertical through the middle of the hull, along B's z axis.
-    const MeshProperties size = properties_of(mesh);
-    const Vector3 middle = 0.5 * (size.low + size.high);
-    hull.waterline = -(Bo.z() + b.R_WB(2, 0) * middle.x() + b.R_WB(2, 1) * middle.y()) / b.R_WB(2, 2);
-    // A run that starts from given poses may start away from where the hull floats, as a decay test does.
-    if (!spec().solver.static_start) hull.waterline = floating_waterline(static_cast<int>(body), mesh);
-    return hull;
-  }
-
-  /// Where the hull, upright, displaces the mass of everything jointed to it; in B, m.
-  double floating_waterline(int hull, const Mesh& mesh) const {
-    double mass = 0.0;
-    const std::vector<bool> rigid = jointed_to(model_.system_, hull);
-    for (std::size_t i = 0; i < rigid.size(); ++i)
-      if (rigid[i]) mass += spec().bodies[i].mass;
-    return floating_height(mesh, mass / spec().sea.density);
-  }
-
   struct HydrodynamicsGroup {
     std::vector<HydrodynamicsBody> hulls;
     std::shared_ptr<const HydrodynamicCoefficients> set;
@@ -389,7 +368,11 @@ class ModelBuilder {
   HydrodynamicsGroup prepare_group(const std::vector<std::size_t>& hulls, const std::vector<Mesh>& meshes) {
     HydrodynamicsGroup group;
     std::vector<HullAfloat> afloat;
-    for (const std::size_t k : hulls) afloat.push_back(hull_afloat(k, meshes[k]));
+    for (const std::size_t k : hulls)
+      afloat.push_back(hull_afloat(spec(), model_.system_, state(), k, meshes[k]));
+    if (model_.waves_)
+      require_resolved_sea(afloat, *model_.waves_, spec().sea.gravity, spec().panel_method,
+                           HydrodynamicsOptions().negligible_energy);
     group.set = coefficient_set(afloat, spec().sea, spec().panel_method, model_.warnings_, progress_);
     for (std::size_t k = 0; k < hulls.size(); ++k) {
       const int body = static_cast<int>(hulls[k]);

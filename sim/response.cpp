@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sim/hull/afloat.h"
 #include "sim/hull/heading_frame.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
@@ -93,33 +94,6 @@ struct LinearResponse::Group {
   }
 };
 
-namespace {
-
-/// Every body with a hull once: alone, or with the one whose set it shares.
-std::vector<std::vector<int>> hull_groups(const Model& model) {
-  const std::vector<BodySpec>& bodies = model.specification().bodies;
-  std::vector<std::vector<int>> groups;
-  std::vector<bool> taken(bodies.size(), false);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Model::BodyCoefficients& from = model.coefficients(static_cast<int>(i));
-    if (!from.set || from.set->hulls() < 2 || from.hull != 0) continue;
-    groups.push_back({static_cast<int>(i), model.body_index(bodies[i].hydrodynamics.coupled_with)});
-    for (const int k : groups.back()) taken[k] = true;
-  }
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!taken[i] && bodies[i].hull.shape != HullSpec::Shape::none) groups.push_back({static_cast<int>(i)});
-  return groups;
-}
-
-/// Height of the still water above Bo, along B's z axis through the middle of the hull.
-double waterline_of(const Mesh& mesh, const Pose& X_WB) {
-  const MeshProperties size = properties_of(mesh);
-  const Vector3 middle = 0.5 * (size.low + size.high);
-  return -(X_WB.p.z() + X_WB.R(2, 0) * middle.x() + X_WB.R(2, 1) * middle.y()) / X_WB.R(2, 2);
-}
-
-}  // namespace
-
 LinearResponse::~LinearResponse() = default;
 LinearResponse::LinearResponse(LinearResponse&&) noexcept = default;
 
@@ -149,7 +123,11 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     mass_.block<3, 3>(6 * i, 6 * i) = system.bodies[i].mass * Matrix3::Identity();
     mass_.block<3, 3>(6 * i + 3, 6 * i + 3) = system.bodies[i].inertia;
   }
-  for (const std::vector<int>& members : hull_groups(model)) {
+  for (const std::vector<std::size_t>& together : coupled_hulls(spec.bodies)) {
+    std::vector<int> members;
+    for (const std::size_t k : together)
+      if (spec.bodies[k].hull.shape != HullSpec::Shape::none) members.push_back(static_cast<int>(k));
+    if (members.empty()) continue;
     Group group;
     group.set = model.coefficients(members.front()).set;
     std::vector<LinearFroudeKrylov> incident;
@@ -161,7 +139,7 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
       const Pose X_WB = pose_of(state_.body[k], system.bodies[k]);
       const double height = model.coefficients(k).reference_height;
       Mesh mesh = build_hull_mesh(body.hull);
-      const double waterline = group.set ? group.set->waterline : waterline_of(mesh, X_WB);
+      const double waterline = group.set ? group.set->waterline : waterline_through_middle(mesh, X_WB.p, X_WB.R);
       for (Vector3& vertex : mesh.vertices) vertex.z() -= height;
       const double yaw = roll_pitch_yaw(X_WB.R).yaw;
       const double density = group.set ? group.set->density : spec.sea.density;

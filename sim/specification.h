@@ -115,7 +115,7 @@ struct BodySpec {
 
 /// How coefficients are computed and what is accepted of them, for all hulls.
 struct PanelMethodSpec {
-  enum class Beyond { refuse, cut };
+  enum class Beyond { limit, cut, refuse };
   double lowest = 0.2, highest = 2.0;  // rad/s
   int frequencies = 32;
   int headings = 0;                    // around the circle; 0 = as many as the waves need
@@ -123,7 +123,8 @@ struct PanelMethodSpec {
   double direct_step = 0.15;           // s, of the `direct` radiation model
   double direct_lowest = 0.4, direct_highest = 1.2;  // rad/s, the band its panels are made for
   std::string accepted_checks;         // self-checks that may fail (coefficients.h), with commas in between
-  Beyond beyond = Beyond::refuse;      // what is done with a sea that has energy beyond the coefficients
+  Beyond beyond = Beyond::limit;       // how waves shorter than those of the coefficients act, see diffraction.h
+  double memory = 4.0;                 // GB, the most that a panel computation may take
   double fit_tolerance = 0.02;         // 1, of the `reduced` radiation model
 };
 

@@ -9,11 +9,15 @@
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/radiation_march.h"
 #include "sim/hull/radiation_memory.h"
+#include "sim/hull/state_space_cache.h"
 #include "sim/hull/state_space_radiation.h"
 #include "sim/number_text.h"
 
 namespace stillhook {
 namespace {
+
+// Share of the sea's energy in the limit of short waves from which on a report says so, 1.
+constexpr double kMuchInLimit = 0.1;
 
 double reference_height_of(const std::vector<HydrodynamicsBody>& bodies, std::size_t i) {
   const std::array<HullAfloat, 1> first{bodies.front().afloat};
@@ -130,7 +134,8 @@ std::unique_ptr<Diffraction> build_diffraction(const std::vector<HydrodynamicsBo
                     *bodies[i].afloat.body);
     }
     if (!waves || waves->calm()) return nullptr;
-    const bool cut = method.beyond == PanelMethodSpec::Beyond::cut;
+    using Beyond = PanelMethodSpec::Beyond;
+    const bool cut = method.beyond == Beyond::cut;
     if (c.excitation.empty()) {
       const std::string sentence = c.source + ": holds no excitation forces (WAMIT: .3 or .2), which waves need";
       if (!cut) throw SpecificationError(entry_of(first), field_of(first), sentence);
@@ -138,13 +143,23 @@ std::unique_ptr<Diffraction> build_diffraction(const std::vector<HydrodynamicsBo
       return nullptr;
     }
     const DiffractionTable& table = *table_for(set, incident, headings);
-    auto diffraction = std::make_unique<Diffraction>(std::move(waves), table, headings,
-                                                           cut ? 1.0 : options.negligible_energy, entry_of(first));
+    auto diffraction = std::make_unique<Diffraction>(
+        std::move(waves), table, headings, cut ? 1.0 : options.negligible_energy, entry_of(first),
+        method.beyond == Beyond::limit ? ShortWaves::limit : ShortWaves::left_out);
     if (diffraction->share_left_out() > 0.0) {
       std::ostringstream sentence;
       sentence.precision(2);
       sentence << first.name << ": " << 100.0 * diffraction->share_left_out()
                << " % of the sea's energy lies beyond the hull's coefficients and acts without diffraction";
+      warnings.push_back(sentence.str());
+    }
+    if (diffraction->share_in_limit() > kMuchInLimit) {
+      std::ostringstream sentence;
+      sentence.precision(2);
+      sentence << first.name << ": " << 100.0 * diffraction->share_in_limit() << " % of the sea's energy lies above "
+               << table.highest_frequency()
+               << " rad/s and is diffracted as in the limit of short waves; a higher panel_method.highest_rad_per_s "
+                  "computes it";
       warnings.push_back(sentence.str());
     }
     return diffraction;
@@ -183,20 +198,17 @@ StateSpaceFit scaled(StateSpaceFit fit, const VectorX& S) {
   return fit;
 }
 
-std::shared_ptr<const StateSpaceFit> state_space_for(const std::shared_ptr<const HydrodynamicCoefficients>& set,
-                                                     double tolerance) {
-  static std::mutex mutex;
-  static std::map<std::pair<const void*, double>,
-                  std::pair<std::weak_ptr<const HydrodynamicCoefficients>, std::shared_ptr<const StateSpaceFit>>>
-      known;
-  const std::lock_guard lock(mutex);
-  auto& entry = known[{set.get(), tolerance}];
-  if (!entry.second || entry.first.lock() != set) {
-    StateSpaceOptions options;
-    options.tolerance = tolerance;
-    entry = {set, std::make_shared<const StateSpaceFit>(fit_state_space(*set, options).fit)};
-  }
-  return entry.second;
+/// The reduced model where one meets the tolerance, else the retardation functions, and a warning that says so.
+std::unique_ptr<const Radiation> reduced_radiation(const HydrodynamicCoefficients& c, const PanelMethodSpec& method,
+                                                   const VectorX& memory, double kernel_tolerance,
+                                                   const BodySpec& body, std::vector<std::string>& warnings) {
+  const KnownStateSpace known = known_state_space(c, method.fit_tolerance);
+  if (known.fit) return std::make_unique<StateSpaceRadiation>(scaled(*known.fit, memory));
+  if (c.retardation.empty()) throw SpecificationError(c.source, "", known.fault);
+  warnings.push_back(body.name + ": " + known.fault +
+                     ". The retardation functions are used instead, which take longer to run; a larger "
+                     "panel_method.fit_tolerance accepts a coarser state space");
+  return std::make_unique<RadiationMemory>(scaled(truncated(c.retardation, kernel_tolerance), memory), c.modes());
 }
 
 }  // namespace
@@ -261,7 +273,7 @@ std::unique_ptr<ForceElement> build_hydrodynamics(const std::vector<Hydrodynamic
         radiation = std::make_unique<RadiationMemory>(
             scaled(truncated(c.retardation, options.kernel_tolerance), memory), modes);
       } else if (model == RadiationModel::reduced) {
-        radiation = std::make_unique<StateSpaceRadiation>(scaled(*state_space_for(set, method.fit_tolerance), memory));
+        radiation = reduced_radiation(c, method, memory, options.kernel_tolerance, first, warnings);
       } else if (model == RadiationModel::direct) {
         std::vector<HullAfloat> afloat;
         for (const HydrodynamicsBody& body : bodies) afloat.push_back(body.afloat);

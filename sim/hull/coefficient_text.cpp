@@ -12,7 +12,7 @@ namespace stillhook {
 namespace {
 
 constexpr const char* kMagic = "stillhook_coefficients";
-constexpr const char* kOptionalKey = "waterplane_m2";
+const std::set<std::string> kOptionalKeys = {"waterplane_m2", "gap_rise", "gap_frequency_rad_s"};
 constexpr const char* kColumns = "quantity,i,j_or_heading_deg,omega_rad_s_or_t_s,value,phase_deg";
 
 /// Fields between commas, without blanks around them.
@@ -83,7 +83,7 @@ void CoefficientText::read_header() {
     if (!next_line(text)) fail(line_, "ends before the line of columns \"" + std::string(kColumns) + "\"");
     std::vector<std::string> fields = split(text);
     if (fields[0] == "quantity") break;
-    if (!known.contains(fields[0]) && fields[0] != kOptionalKey) fail(line_, "unknown key \"" + fields[0] + "\"");
+    if (!known.contains(fields[0]) && !kOptionalKeys.contains(fields[0])) fail(line_, "unknown key \"" + fields[0] + "\"");
     if (header_.contains(fields[0])) fail(line_, "key \"" + fields[0] + "\" is given twice");
     const std::string key = fields[0];
     fields.erase(fields.begin());

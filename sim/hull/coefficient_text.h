@@ -35,8 +35,10 @@ class CoefficientText {
   int last_line() const { return line_; }
   const std::vector<CoefficientRow>& rows() const { return rows_; }
 
-  /// Value of a header key; every file has them all but waterplane_m2.
+  /// Value of a header key; every file has them all but waterplane_m2, gap_rise and
+  /// gap_frequency_rad_s.
   std::string header_text(const std::string& key) const;
+  bool has(const std::string& key) const { return header_.contains(key); }
   /// A number >= low, or > low when `open`.
   double header_number(const std::string& key, double low, bool open) const;
   /// One number > 0 for each hull; nothing where the header does not give the key.

@@ -72,6 +72,9 @@ struct HydrodynamicCoefficients {
   std::vector<double> waterplane;  // m2, area of each hull's water plane; empty where it is not known
   std::vector<FileStiffness> stiffness;  // of each hull, for comparison with its mesh; empty where it is not known
   std::vector<std::string> remarks;      // sentences on what was left out or made up in reading, for the user
+  // Of coupled hulls: the water between them rises this many times the motion of a hull at most, and where, rad/s. Above
+  // kGapResonance times (panel_method.h) it resonates. 0 = not known.
+  double gap_rise = 0.0, gap_frequency = 0.0;
   MatrixX A_inf;                   // modes x modes
   RetardationFunctions retardation;
   std::vector<FrequencyCoefficients> frequency;  // ascending; may be empty
@@ -118,7 +121,8 @@ struct SelfCheck {
 ///   haskind             the energy a moving hull radiates is that which waves from all around can give it (Newman
 ///   1962):
 ///                         B_ij = w^3 / (4 pi rho g^3) int_0^2pi Re(X_i conj X_j) db      (deep water),
-///                       wherever the headings resolve the integrand: more than 2 (k R + 1), R half the length
+///                       wherever the headings resolve the integrand: more than 2 (k R + 1), R half the diagonal;
+///                       errors relative to B, or to w m of the displaced water where no spring holds the hull
 ///   long_wave_phase     where k length/2 <= 1, at the lowest frequency: the force of surge and sway leads the crest by
 ///   a
 ///                       quarter period, along the direction of the waves, and that of heave lags by w B_33

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <sstream>
 
@@ -28,9 +30,16 @@ std::string listed_in_degrees(const std::vector<double>& headings) {
 
 }  // namespace
 
+struct DiffractionTable::Known {
+  std::mutex mutex;
+  std::map<std::pair<double, double>, Eigen::VectorXcd> values;
+};
+
 DiffractionTable::DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
                                    std::span<const double> headings, double length)
-    : headings_(total.headings), length_(length), gravity_(froude_krylov[0].gravity()) {
+    : headings_(total.headings), hulls_(froude_krylov.begin(), froude_krylov.end()), length_(length),
+      gravity_(froude_krylov[0].gravity()), known_(std::make_shared<Known>()) {
+  for (const double heading : headings) turned_.push_back(heading - headings[0]);
   const int directions = static_cast<int>(headings_.size());
   all_around_ = directions >= 4;
   for (int h = 0; h < directions; ++h)
@@ -61,12 +70,36 @@ int DiffractionTable::closest(double heading) const {
 
 bool DiffractionTable::resolves(double frequency, double heading) const {
   // A frequency or heading given exactly on an entry may miss it by a rounding error.
-  if (frequency > highest_frequency() * (1.0 + 1e-9)) return false;
+  return frequency <= highest_frequency() * (1.0 + 1e-9) && resolves_heading(frequency, heading);
+}
+
+bool DiffractionTable::resolves_heading(double frequency, double heading) const {
   if (!all_around_) return std::abs(std::remainder(heading - headings_[closest(heading)], kTurn)) <= kSameDirection;
   const int n = static_cast<int>(headings_.size());
   const double u = (heading - headings_[0]) * n / kTurn;
   if (std::abs(u - std::round(u)) < 1e-6) return true;
-  return frequency * frequency / gravity_ * 0.5 * length_ <= 0.5 * n;
+  // Above the table it is what is read at its end that must be resolved; the limit of short waves is known everywhere.
+  const double read = std::min(frequency, highest_frequency());
+  return read * read / gravity_ * 0.5 * length_ <= 0.5 * n;
+}
+
+Eigen::VectorXcd DiffractionTable::short_waves(double frequency, double heading) const {
+  Eigen::VectorXcd X(value_.front().cols());
+  for (std::size_t hull = 0; hull < hulls_.size(); ++hull)
+    X.segment<6>(6 * static_cast<Eigen::Index>(hull)) =
+        hulls_[hull].short_wave_diffraction(frequency, heading - turned_[hull]);
+  return X;
+}
+
+Eigen::VectorXcd DiffractionTable::at(double frequency, double heading) const {
+  const double end = highest_frequency();
+  if (frequency <= end * (1.0 + 1e-9)) return within(std::min(frequency, end), heading);
+  const std::lock_guard lock(known_->mutex);
+  const auto [entry, fresh] = known_->values.try_emplace({frequency, heading});
+  if (fresh)
+    entry->second = short_waves(frequency, heading) +
+                    std::pow(end / frequency, 4) * (within(end, heading) - short_waves(end, heading));
+  return entry->second;
 }
 
 Eigen::VectorXcd DiffractionTable::at_heading(int f, double heading) const {
@@ -77,7 +110,7 @@ Eigen::VectorXcd DiffractionTable::at_heading(int f, double heading) const {
   return sum;
 }
 
-Eigen::VectorXcd DiffractionTable::at(double frequency, double heading) const {
+Eigen::VectorXcd DiffractionTable::within(double frequency, double heading) const {
   const int last = static_cast<int>(frequencies_.size()) - 1;
   const auto above = std::upper_bound(frequencies_.begin(), frequencies_.end(), frequency);
   const int i = std::clamp(static_cast<int>(above - frequencies_.begin()) - 1, 0, last - 1);
@@ -102,21 +135,58 @@ Eigen::VectorXcd DiffractionTable::at(double frequency, double heading) const {
   return (1.0 + 2.0 * t) * s * s * y0 + t * s * s * h * slope0 + t * t * (3.0 - 2.0 * t) * y1 - t * t * s * h * slope1;
 }
 
+std::string unresolved_sea(double share, bool above, double highest_frequency, double negligible_energy) {
+  std::ostringstream sentence;
+  sentence.precision(3);
+  sentence << 100.0 * share << " % of the sea's energy lies ";
+  if (above)
+    sentence << "above " << highest_frequency << " rad/s, where the excitation of the coefficients ends; at most "
+             << 100.0 * negligible_energy << " % may with panel_method.beyond = \"refuse\". \"limit\" takes the limit of "
+             << "short waves there, \"cut\" no diffraction, and a higher panel_method.highest_rad_per_s computes it";
+  else
+    sentence << "in short waves between the headings of the coefficients, which are too far apart for them; at most "
+             << 100.0 * negligible_energy << " % may. Panels compute as many headings as the waves need with "
+             << "panel_method.headings = 0; panel_method.beyond = \"cut\" leaves out the diffraction of these waves";
+  return sentence.str();
+}
+
+namespace {
+
+/// Why a sea is refused that comes from elsewhere than the few headings of a file.
+std::string other_directions(double share, const DiffractionTable& table, double negligible_energy) {
+  std::ostringstream sentence;
+  sentence.precision(3);
+  sentence << 100.0 * share
+           << " % of the sea's energy lies in other directions than those of the coefficients, which hold for waves towards "
+           << listed_in_degrees(table.headings())
+           << " deg of the hull alone: run the panel code with headings evenly around the circle, or over 0..180 deg for a "
+              "hull with port_starboard = true; a body of revolution needs one heading and axisymmetric = true; at most "
+           << 100.0 * negligible_energy << " % may";
+  return sentence.str();
+}
+
+}  // namespace
+
 Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const DiffractionTable& table,
-                         std::span<const double> headings, double negligible_energy, const std::string& entry)
+                         std::span<const double> headings, double negligible_energy, const std::string& entry,
+                         ShortWaves above)
     : waves_(std::move(waves)), hulls_(headings.size()) {
-  double energy = 0.0, beyond = 0.0;
-  bool above = false;
+  double energy = 0.0, beyond = 0.0, in_limit = 0.0;
+  bool too_short = false;
   for (const WaveComponent& wave : waves_->components()) {
     const double a2 = wave.amplitude * wave.amplitude;
     energy += a2;
     const double heading = std::atan2(wave.sin_heading, wave.cos_heading) - headings[0];
-    if (!table.resolves(wave.frequency, heading)) {
+    const bool known = above == ShortWaves::limit ? table.resolves_heading(wave.frequency, heading)
+                                                  : table.resolves(wave.frequency, heading);
+    const bool short_wave = wave.frequency > table.highest_frequency() * (1.0 + 1e-9);
+    if (!known) {
       beyond += a2;
-      above |= wave.frequency > table.highest_frequency();
+      too_short |= short_wave && above == ShortWaves::left_out;
       continue;
     }
-    const Eigen::VectorXcd X = wave.amplitude * table.at(std::min(wave.frequency, table.highest_frequency()), heading);
+    if (short_wave) in_limit += a2;
+    const Eigen::VectorXcd X = wave.amplitude * table.at(wave.frequency, heading);
     for (std::size_t hull = 0; hull < hulls_.size(); ++hull) {
       const Vector6 real = X.segment<6>(6 * hull).real(), imag = X.segment<6>(6 * hull).imag();
       hulls_[hull].push_back({real, imag, wave.wavenumber * wave.cos_heading, wave.wavenumber * wave.sin_heading,
@@ -124,22 +194,12 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
     }
   }
   left_out_ = energy > 0.0 ? beyond / energy : 0.0;
-  if (beyond > negligible_energy * energy) {
-    std::ostringstream sentence;
-    sentence.precision(3);
-    sentence << 100.0 * beyond / energy << " % of the sea's energy lies ";
-    if (above)
-      sentence << "above " << table.highest_frequency() << " rad/s, where the excitation of the coefficients ends";
-    else if (!table.all_around())
-      sentence << "in other directions than those of the coefficients, which hold for waves towards "
-               << listed_in_degrees(table.headings())
-               << " deg of the hull alone: run the panel code with headings evenly around the circle, or over 0..180 deg "
-                  "for a hull with port_starboard = true; a body of revolution needs one heading and axisymmetric = true";
-    else
-      sentence << "in short waves between the headings of the coefficients, which are too far apart for them";
-    sentence << "; at most " << 100.0 * negligible_energy << " % may";
-    throw SpecificationError(entry, "", sentence.str());
-  }
+  in_limit_ = energy > 0.0 ? in_limit / energy : 0.0;
+  if (left_out_ > negligible_energy)
+    throw SpecificationError(entry, "",
+                             !too_short && !table.all_around()
+                                 ? other_directions(left_out_, table, negligible_energy)
+                                 : unresolved_sea(left_out_, too_short, table.highest_frequency(), negligible_energy));
 }
 
 void Diffraction::scale(std::span<const double> factors) {

@@ -7,6 +7,11 @@
 // total excitation of the coefficient set. X_FK, the linear Froude-Krylov force on the mean wetted surface, is taken
 // off because the pressure integral of the hydrostatics has it already. The headings of a set of several hulls are
 // relative to the first hull; the rows of each hull refer to the crest passing that hull's own reference point.
+//
+// Above the last frequency W of the table X_D is the limit of short waves L (linear_froude_krylov.h) and what the table
+// differs from it at W, which fades with the square of the wave number:
+//
+//   X_D(w, b) = L(w, b) + (X_D(W, b) - L(W, b)) (W/w)^4,   w > W
 #pragma once
 
 #include <memory>
@@ -39,27 +44,42 @@ class DiffractionTable {
   const std::vector<double>& headings() const { return headings_; }  // rad
   /// False above the highest frequency and between headings that are too far apart for the wave length.
   bool resolves(double frequency, double heading) const;
-  /// All modes; frequency in [0, highest_frequency()], heading in rad relative to the first hull.
+  /// The second of these alone.
+  bool resolves_heading(double frequency, double heading) const;
+  /// All modes; heading in rad relative to the first hull. Above highest_frequency() by the limit of short waves.
   Eigen::VectorXcd at(double frequency, double heading) const;
 
  private:
+  struct Known;  // values above the table, which every model of a search asks for again
   Eigen::VectorXcd at_heading(int f, double heading) const;
   /// The entry that is closest in heading.
   int closest(double heading) const;
+  Eigen::VectorXcd within(double frequency, double heading) const;
+  Eigen::VectorXcd short_waves(double frequency, double heading) const;
 
   std::vector<double> frequencies_;      // rad/s, the first is 0
   std::vector<double> headings_;         // rad
   std::vector<Eigen::MatrixXcd> value_;  // [frequency] headings x modes
+  std::vector<LinearFroudeKrylov> hulls_;
+  std::vector<double> turned_;  // rad, heading of each hull from that of the first
   double length_, gravity_;
   bool all_around_ = true;
+  std::shared_ptr<Known> known_;
 };
+
+/// What becomes of waves above the table: the limit of short waves, or no diffraction.
+enum class ShortWaves { limit, left_out };
+
+/// Why a sea is refused that has too much energy where the coefficients say nothing, with the keys that help.
+std::string unresolved_sea(double share, bool above, double highest_frequency, double negligible_energy);
 
 class Diffraction {
  public:
-  /// `headings`: mean heading of each hull, rad. Components that the table does not resolve are left out when they hold
-  /// at most `negligible_energy` of the sea's energy (sum of a^2) together; otherwise throws SpecificationError(entry).
+  /// `headings`: mean heading of each hull, rad. Components that the table does not resolve (with ShortWaves::limit only
+  /// those between its headings) are left out when they hold at most `negligible_energy` of the sea's energy (sum of
+  /// a^2) together; otherwise throws SpecificationError(entry).
   Diffraction(std::shared_ptr<const WaveField> waves, const DiffractionTable& table, std::span<const double> headings,
-              double negligible_energy, const std::string& entry);
+              double negligible_energy, const std::string& entry, ShortWaves above = ShortWaves::left_out);
 
   /// Multiplies the force on each hull, in order.
   void scale(std::span<const double> factors);
@@ -68,6 +88,8 @@ class Diffraction {
   bool calm() const { return waves_->calm(); }
   /// Of the sea's energy, 1.
   double share_left_out() const { return left_out_; }
+  /// The same of the waves that the limit of short waves carries.
+  double share_in_limit() const { return in_limit_; }
 
   /// Force on a hull with its reference point at (x, y) in W, in its heading frame (N, N m), and its derivatives with
   /// respect to x and y in W.
@@ -81,7 +103,7 @@ class Diffraction {
   };
   std::shared_ptr<const WaveField> waves_;
   std::vector<std::vector<Component>> hulls_;
-  double left_out_ = 0.0;
+  double left_out_ = 0.0, in_limit_ = 0.0;
 };
 
 }  // namespace stillhook

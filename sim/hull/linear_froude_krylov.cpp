@@ -91,6 +91,22 @@ Eigen::Matrix<Complex, 6, 1> LinearFroudeKrylov::excitation(double frequency, do
 
 Eigen::Matrix<Complex, 6, Eigen::Dynamic> LinearFroudeKrylov::excitations(double frequency,
                                                                           const std::vector<double>& headings) const {
+  return integral(frequency, headings, [](const Vector3&) { return 1.0; });
+}
+
+Eigen::Matrix<Complex, 6, 1> LinearFroudeKrylov::short_wave_diffraction(double frequency, double heading) const {
+  // Sides within asin(1/4) = 14 deg of the waves' direction are partly lit: the boundary of the shadow is as wide.
+  constexpr double kGrazing = 0.25;
+  const Vector3 along(std::cos(heading), std::sin(heading), 0.0);
+  return integral(frequency, {heading}, [&](const Vector3& normal) {
+    return std::clamp(-normal.dot(along) / kGrazing, -1.0, 1.0);
+  });
+}
+
+template <class Factor>
+Eigen::Matrix<Complex, 6, Eigen::Dynamic> LinearFroudeKrylov::integral(double frequency,
+                                                                       const std::vector<double>& headings,
+                                                                       Factor factor) const {
   const double k = frequency * frequency / gravity_;
   // On pieces with k * edge <= 0.8 the rule of degree 5 leaves (k edge)^6 / 6! ~ 4e-4 of the piece, with signs that
   // alternate along the wave.
@@ -98,9 +114,12 @@ Eigen::Matrix<Complex, 6, Eigen::Dynamic> LinearFroudeKrylov::excitations(double
   std::vector<double> x, y;
   std::array<std::vector<double>, 6> weight;  // -rho g e^{kz} (n, x_B x n) dS of each point
   for (const Triangle& t : wetted_) {
+    const Vector3 outwards = (t.b - t.a).cross(t.c - t.a);
+    const double share = factor(outwards.normalized());
+    if (share == 0.0) continue;
     const double edge = std::max({(t.b - t.a).norm(), (t.c - t.b).norm(), (t.a - t.c).norm()});
     const int cuts = std::max(1, static_cast<int>(std::ceil(edge / longest)));
-    const Vector3 normal = -density_ * gravity_ / (2.0 * cuts * cuts) * (t.b - t.a).cross(t.c - t.a);
+    const Vector3 normal = -share * density_ * gravity_ / (2.0 * cuts * cuts) * outwards;
     const auto add_piece = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
       for (const QuadraturePoint& q : quadrature()) {
         const Vector3 at = q.a * a + q.b * b + q.c * c;

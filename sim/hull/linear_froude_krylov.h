@@ -4,6 +4,12 @@
 //   n_4..6 = x_B x n, moments about Bo;   force = Re[ X a exp(i th) ]  as in coefficients.h
 //
 // S: the hull mesh below the calm water plane, x_B from Bo. Deep water. (Faltinsen 1990, ch. 3; Newman 1977, ch. 6)
+//
+// Waves much shorter than the hull are thrown back by the sides they meet and leave the water behind the hull calm: the
+// pressure is twice that of the incident wave on the lit side and none on the side in the shadow (Kirchhoff's
+// approximation; Faltinsen 1990, ch. 5). What this adds to the Froude-Krylov force is the limit of the diffraction force
+//
+//   X_D,i -> -int_S s rho g exp(k z) exp(i k (x cos b + y sin b)) n_i dS,   s = -1 .. 1 from lee to weather side.
 #pragma once
 
 #include <complex>
@@ -34,6 +40,9 @@ class LinearFroudeKrylov {
   Eigen::Matrix<std::complex<double>, 6, Eigen::Dynamic> excitations(double frequency,
                                                                      const std::vector<double>& headings) const;
 
+  /// X_D in the limit of short waves, N/m and N m/m. Hulls that lie in each other's shadow are taken to be alone.
+  Eigen::Matrix<std::complex<double>, 6, 1> short_wave_diffraction(double frequency, double heading) const;
+
   /// m3, enclosed by S and the water plane.
   double volume() const { return volume_; }
   double gravity() const { return gravity_; }  // m/s2
@@ -43,6 +52,11 @@ class LinearFroudeKrylov {
   struct Triangle {
     Vector3 a, b, c;  // m; z from the water plane
   };
+  /// The integral with each triangle's pressure times factor(outward unit normal).
+  template <class Factor>
+  Eigen::Matrix<std::complex<double>, 6, Eigen::Dynamic> integral(double frequency, const std::vector<double>& headings,
+                                                                  Factor factor) const;
+
   std::vector<Triangle> wetted_;
   double waterline_, density_, gravity_, volume_ = 0.0;
 };

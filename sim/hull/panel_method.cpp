@@ -8,6 +8,7 @@
 #include "sim/hull/linear_froude_krylov.h"
 #include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/hull_modes.h"
+#include "sim/hull/rankine/memory.h"
 #include "sim/interrupted.h"
 #include "sim/specification.h"
 
@@ -19,6 +20,13 @@ using namespace rankine;
 constexpr double kStill = 1e-3;
 // Phase of the wave at half the hull's length from one frequency of the excitation to the next, rad.
 constexpr double kPhaseStep = 0.5;
+// How fast the correction fades that makes two parts of the band meet.
+constexpr double kJoint = 3.0;
+// Largest difference between the damping of the pressure and that of the radiated energy, as "haskind" measures it. The
+// pressure's is a small difference of large numbers where sides and bottom work against each other: in the roll of a
+// box of 120 x 25 x 6 m it is 10 % off on the panels of the default and 1 % on panels 0.6 times as long, in the yaw of a
+// box of 30 x 30 x 2.5 m 9 % and 6 %, while the energy's changes by 1.5 % at most. A wrong sign or symmetry gives 100 %.
+constexpr double kEnergyBalance = 0.25;
 
 /// Weights of the cubic through the four nodes around x (fewer nodes: of lower order), first node and weights.
 std::pair<int, std::vector<double>> cubic_weights(const std::vector<double>& nodes, double x) {
@@ -30,20 +38,6 @@ std::pair<int, std::vector<double>> cubic_weights(const std::vector<double>& nod
     for (int j = 0; j < order; ++j)
       if (i != j) weights[i] *= (x - nodes[first + j]) / (nodes[first + i] - nodes[first + j]);
   return {first, weights};
-}
-
-void require_options(const PanelMethodOptions& o) {
-  const auto bad = [](const char* field, const char* rule) { throw SpecificationError("panel method", field, rule); };
-  if (!(o.density > 0.0)) bad("density", "must be > 0");
-  if (!(o.gravity > 0.0)) bad("gravity", "must be > 0");
-  if (!(o.lowest > 0.0 && o.highest > o.lowest)) bad("highest", "must be above the lowest frequency, which must be > 0");
-  for (std::size_t i = 0; i < o.chosen.size(); ++i)
-    if (!(o.chosen[i] > 0.0) || (i > 0 && !(o.chosen[i] > o.chosen[i - 1])))
-      bad("chosen", "must be ascending frequencies > 0");
-  if (o.frequencies < 4) bad("frequencies", "must be at least 4");
-  if (o.headings != 0 && o.headings < 4) bad("headings", "must be at least 4, or 0");
-  if (!(o.gap_damping >= 0.0)) bad("gap_damping", "must be >= 0");
-  if (!(o.refinement > 0.0)) bad("refinement", "must be > 0");
 }
 
 template <class Scalar>
@@ -65,6 +59,7 @@ class Computation {
 
   HydrodynamicCoefficients run() {
     report_.bands = bands_of(layout_, options_);
+    measure_parts(hulls_, layout_, options_, report_.bands);
     describe();
     limits();
     double done = 0.0, all = 0.0;
@@ -74,16 +69,12 @@ class Computation {
       solve(band, [&](double within) { tell((done + within * share) / all, band); });
       done += share;
     }
+    join_parts();
     add_froude_krylov();
     if (hulls_.size() == 1) take_radiated_damping();
     keep_wanted_headings();
-    if (report_.gap_rise > kGapResonance) {
-      std::ostringstream text;
-      text.precision(3);
-      text << "; resonance of the gap: the water between the hulls rises " << report_.gap_rise
-           << " times a hull's motion at " << report_.gap_frequency << " rad/s, with damping " << options_.gap_damping;
-      set_.description += text.str();
-    }
+    set_.gap_rise = report_.gap_rise;
+    set_.gap_frequency = report_.gap_frequency;
     if (progress_) progress_(1.0, "done");
     return std::move(set_);
   }
@@ -163,7 +154,6 @@ class Computation {
     const HullPanels panels = panels_of(hulls_, layout_, band.panel_length);
     SurfacePanels surface = free_surface(panels, grid_of(band));
     mark_gap(layout_, panels, surface);
-    record_sizes(panels, surface, band);
     const VectorX weight = panel_weights(panels, options_.density);
     const std::size_t count = band.frequencies.size();
     MatrixX A_inf = MatrixX::Zero(modes_, modes_);
@@ -189,8 +179,8 @@ class Computation {
       }
       excite(panels, c.parity, modes, weighted, band);
     }
-    const bool last = &band == &report_.bands.back();
-    for (std::size_t f = 0; f < count - (last ? 0 : 1); ++f) {
+    std::vector<FrequencyCoefficients>& part = parts_.emplace_back();
+    for (std::size_t f = 0; f < count; ++f) {
       // The error of the panels is nearly the same at every frequency: it goes with A_inf of the same panels.
       FrequencyCoefficients at{band.frequencies[f], A_inf_middle_ + A[f].real() - A_inf,
                                band.frequencies[f] * A[f].imag()};
@@ -198,10 +188,37 @@ class Computation {
       symmetrise(at.B, band.frequencies[f] * scale_);
       clear_still(at.A);
       clear_still(at.B);
-      at.A = about_origin(at.A);
-      at.B = about_origin(at.B);
-      set_.frequency.push_back(std::move(at));
+      part.push_back(std::move(at));
     }
+  }
+
+  /// The parts of the band have panels and surfaces of their own, whose errors differ: where two meet, each gives way by
+  /// half of the difference, less and less towards its other end.
+  void join_parts() {
+    for (std::size_t p = 0; p + 1 < parts_.size(); ++p) {
+      const MatrixX A = 0.5 * (parts_[p].back().A - parts_[p + 1].front().A);
+      const MatrixX B = 0.5 * (parts_[p].back().B - parts_[p + 1].front().B);
+      for (const int side : {0, 1})
+        for (FrequencyCoefficients& at : parts_[p + side]) {
+          const double share = share_at_joint(p, side, at.frequency);
+          at.A += share * A;
+          at.B += share * B;
+        }
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (std::size_t f = p > 0 ? 1 : 0; f < parts_[p].size(); ++f) {
+        const FrequencyCoefficients& at = parts_[p][f];
+        set_.frequency.push_back({at.frequency, about_origin(at.A), about_origin(at.B)});
+      }
+  }
+
+  /// What part p (side 0) or the next (side 1) takes of half the difference where they meet: -1 or 1 there, 0 at its
+  /// other end.
+  double share_at_joint(std::size_t p, int side, double w) const {
+    const PanelBand& band = report_.bands[p + side];
+    if (!(band.to > band.from)) return side == 0 ? -1.0 : 1.0;
+    const double t = std::log(w / band.from) / std::log(band.to / band.from);
+    return side == 0 ? -std::pow(t, kJoint) : std::pow(1.0 - t, kJoint);
   }
 
   /// eta = i w phi/g, and a unit velocity is a motion of 1/w.
@@ -220,18 +237,12 @@ class Computation {
       }
   }
 
-  void record_sizes(const HullPanels& panels, const SurfacePanels& surface, PanelBand& band) {
-    const BoundarySizes sizes = sizes_of(panels, surface);
-    band.hull_panels = sizes.hull;
-    band.surface_panels = sizes.surface;
-    band.classes = sizes.classes;
-    band.bytes = sizes.bytes;
-  }
-
   /// X_D by Haskind's relation from the weighted potentials of the modes at the band's frequencies.
   void excite(const HullPanels& panels, const Parity& parity, const ClassModes& modes,
               const std::vector<Matrix<Complex>>& weighted, const PanelBand& band) {
     ExcitationTable& X = set_.excitation;
+    const std::size_t part = static_cast<std::size_t>(&band - report_.bands.data());
+    const Matrix<Complex> before = excitation_at(band.from, modes);
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
       const double w = X.frequencies[f];
@@ -246,6 +257,32 @@ class Computation {
           X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]) =
               (still_[modes.modes[k]] ? 0.0 : X_D(k)) * phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity);
       }
+    }
+    if (part > 0) join_excitation(part - 1, 0.5 * (before - excitation_at(band.from, modes)), modes);
+  }
+
+  /// Headings x modes.
+  Matrix<Complex> excitation_at(double w, const ClassModes& modes) const {
+    const ExcitationTable& X = set_.excitation;
+    const auto f = std::find(X.frequencies.begin(), X.frequencies.end(), w) - X.frequencies.begin();
+    Matrix<Complex> value(X.headings.size(), modes.modes.size());
+    for (std::size_t h = 0; h < X.headings.size(); ++h)
+      for (std::size_t k = 0; k < modes.modes.size(); ++k)
+        value(h, k) = X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]);
+    return value;
+  }
+
+  /// As join_parts(), of a class's modes.
+  void join_excitation(std::size_t p, const Matrix<Complex>& half, const ClassModes& modes) {
+    ExcitationTable& X = set_.excitation;
+    const double joint = report_.bands[p].to;
+    for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
+      const double w = X.frequencies[f];
+      if (w < report_.bands[p].from || w > report_.bands[p + 1].to) continue;
+      const double share = share_at_joint(p, w < joint ? 0 : 1, w);
+      for (std::size_t h = 0; h < X.headings.size(); ++h)
+        for (std::size_t k = 0; k < modes.modes.size(); ++k)
+          X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]) += share * half(h, k);
     }
   }
 
@@ -274,14 +311,15 @@ class Computation {
   }
 
   /// B from the energy that the waves carry away, w^3/(4 pi rho g^3) int X_i conj X_j db (Newman 1962), in place of that
-  /// of the pressure on the hull, which counts what beach and panels take near the hull as well. Both must agree; where
-  /// they do not, the pressure's stays and the self-check "haskind" refuses the set.
+  /// of the pressure on the hull, which counts what beach and panels take near the hull as well and is small against the
+  /// pressure itself. Where the two are too far apart to be the same hull's, the pressure's stays and the self-check
+  /// "haskind" refuses the set.
   void take_radiated_damping() {
     const std::vector<SelfCheck> checks = self_checks(set_);
     const auto balance = std::find_if(checks.begin(), checks.end(), [](const auto& c) { return c.key == "haskind"; });
     if (balance == checks.end()) return;
     report_.energy_balance = balance->value;
-    if (!balance->passed()) return;
+    if (!(balance->value <= kEnergyBalance)) return;
     const ExcitationTable& X = set_.excitation;
     const int headings = static_cast<int>(X.headings.size());
     for (FrequencyCoefficients& at : set_.frequency) {
@@ -340,6 +378,7 @@ class Computation {
   MatrixX to_middle_;
   int modes_;
   MatrixX A_inf_middle_;
+  std::vector<std::vector<FrequencyCoefficients>> parts_;  // of the band, about the middles; ends are in both
   int headings_kept_ = 1;    // every n-th heading is wanted
   MatrixX scale_;            // A(0) about the middles
   std::vector<bool> still_;  // of each mode
@@ -352,14 +391,7 @@ std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const 
   require_options(options);
   const Layout layout = place(hulls);
   std::vector<PanelBand> bands = bands_of(layout, options);
-  for (PanelBand& band : bands) {
-    const HullPanels panels = panels_of(hulls, layout, band.panel_length);
-    const BoundarySizes sizes = sizes_of(panels, free_surface(panels, grid_of(band)));
-    band.hull_panels = sizes.hull;
-    band.surface_panels = sizes.surface;
-    band.classes = sizes.classes;
-    band.bytes = sizes.bytes;
-  }
+  measure_parts(hulls, layout, options, bands);
   return bands;
 }
 
@@ -369,38 +401,6 @@ HydrodynamicCoefficients panel_method(const std::vector<PanelHull>& hulls, const
   require_options(options);
   PanelMethodReport own;
   return Computation(hulls, options, report ? *report : own, progress).run();
-}
-
-Eigen::MatrixXcd diffraction_by_solution(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
-                                         double frequency, const std::vector<double>& headings) {
-  require_options(options);
-  const Layout layout = place(hulls);
-  PanelMethodOptions one = options;
-  one.chosen = {frequency};
-  const PanelBand band = bands_of(layout, one).front();
-  const HullPanels panels = panels_of(hulls, layout, band.panel_length);
-  SurfacePanels surface = free_surface(panels, grid_of(band));
-  mark_gap(layout, panels, surface);
-  const Beach beach = beach_of(band, options);
-  const VectorX weight = panel_weights(panels, options.density);
-  const int count = static_cast<int>(headings.size());
-  Matrix<Complex> X = Matrix<Complex>::Zero(6 * hulls.size(), count);
-  for (const BoundaryClass& c : boundary_problem(panels, surface)) {
-    const ClassModes modes = modes_of(panels, layout, c.parity);
-    if (modes.modes.empty()) continue;
-    Matrix<Complex> v(panels.panels.size(), count);
-    for (int h = 0; h < count; ++h)
-      v.col(h) = -incident_velocity(panels, c.parity, frequency, headings[h], options.gravity);
-    const auto response = frequency_responses(c, surface, beach, options.gravity, {{frequency}}, {&v, 1});
-    const Matrix<Complex> weighted = weight.cast<Complex>().asDiagonal() * response.front().hull;
-    const Matrix<Complex> F =
-        Complex(0.0, -frequency) * (modes.normal.transpose().cast<Complex>() * weighted);
-    for (std::size_t k = 0; k < modes.modes.size(); ++k)
-      for (int h = 0; h < count; ++h)
-        X(modes.modes[k], h) = F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h],
-                                                         options.gravity);
-  }
-  return to_middle(layout).transpose().cast<Complex>() * X;
 }
 
 }  // namespace stillhook

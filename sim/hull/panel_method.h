@@ -43,6 +43,7 @@ struct PanelMethodOptions {
   double refinement = 1.0;                     // > 0: every panel and cell is divided by it; 2 halves them all
   double panel_length = 0.0;                   // m, longest panel of the hulls; 0 = automatic
   double gap_damping = 0.015;                  // 1, >= 0, nu/w of the water between two hulls (frequency_response.h)
+  double memory = 0.0;                         // bytes that it may take; 0 = any
 };
 /// Rise of the water between hulls over the motion of a hull from which on it is called a resonance.
 inline constexpr double kGapResonance = 3.0;
@@ -71,11 +72,20 @@ struct PanelMethodReport {
 };
 
 /// What a computation would take, without doing it: panels of each band and memory.
+/// Throws like panel_method().
 std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options);
+
+/// Iterations that GMRES usually needs, and the columns it solves at a time: the modes of a symmetry class at every
+/// frequency of the part.
+inline constexpr double kUsualIterations = 60.0;
+double columns_at_once(const PanelBand& band, int hulls);
+/// Most memory of one part, with what GMRES keeps.
+double bytes_at_most(const PanelBand& band, int hulls);
 
 /// Computes the set. `progress`: share done, from 0 to 1, and what is being done; returning false ends the computation
 /// with Interrupted. Throws SpecificationError("bodies.<name>") for a hull that cannot be used:
-/// not in the water or wholly in it, a lid in the water plane, hulls that overlap, a hull too small for its waves.
+/// not in the water or wholly in it, a lid in the water plane, hulls that overlap, a hull too small for its waves, and
+/// before anything is computed for one whose panels would take more memory than options.memory.
 HydrodynamicCoefficients panel_method(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options,
                                       PanelMethodReport* report = nullptr,
                                       const std::function<bool(double, const std::string&)>& progress = {});

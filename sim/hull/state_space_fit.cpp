@@ -170,6 +170,8 @@ bool meets(const Candidate& candidate, double tolerance) {
   return candidate.worst <= tolerance && candidate.report.beyond_band <= kBeyondBand;
 }
 
+bool resonates_outside(const Candidate& candidate) { return candidate.report.beyond_band > kBeyondBand; }
+
 /// w0 of passivity.h.
 double middle_of_band(const TransferData& data) { return data.frequency.back() / 3.0; }
 
@@ -259,12 +261,15 @@ Candidate fit_lowest_order(const TransferData& data, const std::vector<int>& mod
   const TransferSamples samples = samples_of(data, modes);
   const int highest = std::min(options.highest_order, static_cast<int>(data.frequency.size()) / 2);
   Candidate best;
-  best.worst = std::numeric_limits<double>::infinity();
+  best.worst = best.report.beyond_band = std::numeric_limits<double>::infinity();
   for (int order = options.lowest_order; order <= highest; ++order) {
     Candidate candidate = fit_block(data, samples, modes, order, options);
     if (meets(candidate, options.tolerance)) return candidate;
-    if (candidate.worst < best.worst) best = std::move(candidate);
+    // One that resonates outside the data is taken for want of another only.
+    const bool alike = resonates_outside(candidate) == resonates_outside(best);
+    if (alike ? candidate.worst < best.worst : resonates_outside(best)) best = std::move(candidate);
   }
+  if (meets(best, options.acceptable)) return best;
   std::ostringstream sentence;
   const StateSpacePair& pair = best.worst_pair();
   sentence << "no state space of " << options.lowest_order << " to " << highest << " states per mode fits "
@@ -308,6 +313,12 @@ double StateSpaceReport::worst_r_squared() const {
   double worst = 1.0;
   for (const StateSpacePair& pair : pairs)
     if (pair.i == pair.j) worst = std::min(worst, pair.r_squared);
+  return worst;
+}
+
+double StateSpaceReport::worst_error() const {
+  double worst = 0.0;
+  for (const StateSpacePair& pair : pairs) worst = std::max(worst, pair.error);
   return worst;
 }
 

@@ -21,6 +21,8 @@ namespace stillhook {
 struct StateSpaceOptions {
   // rms over the band of |K_ij - fit| <= tolerance * sqrt(rms |K_ii| rms |K_jj|); 1
   double tolerance = 0.01;
+  // Where no order meets the tolerance, the best of all is taken when it meets this; 0 = it is refused. 1
+  double acceptable = 0.0;
   int lowest_order = 4;    // states per mode; >= 2
   int highest_order = 16;  // the same; no more than half the number of frequencies is ever tried
   // |K_ij| <= negligible * sqrt(max |K_ii| max |K_jj|) over the band is taken for zero; 1
@@ -82,6 +84,7 @@ struct StateSpaceReport {
   std::vector<StateSpacePair> pairs;
 
   double worst_r_squared() const;  // of the diagonal entries
+  double worst_error() const;      // of all entries
 };
 
 struct StateSpaceModel {
@@ -91,7 +94,7 @@ struct StateSpaceModel {
 
 /// Fits the frequency tables, or the retardation functions where there are not enough of those. The coefficients should
 /// have passed their self-checks. Throws SpecificationError (coefficients.source) for options out of range, when there
-/// is nothing to fit, and when no order up to the highest meets the tolerance (naming the pair and its error).
+/// is nothing to fit, and when no order up to the highest meets the tolerance, or what is acceptable (naming the pair and its error).
 StateSpaceModel fit_state_space(const HydrodynamicCoefficients& coefficients, const StateSpaceOptions& options = {});
 
 }  // namespace stillhook

@@ -285,6 +285,29 @@ TEST_CASE("added mass about the centre of gravity at a frequency", "[hydrodynami
         added_mass_from_kernels(c.A_inf, c.retardation, 0.628)(2, 2));
 }
 
+TEST_CASE("retardation functions stand in where no state space meets the tolerance", "[hydrodynamics]") {
+  BodySpec spec = crane(HydrodynamicsSpec::Kind::table);
+  spec.hydrodynamics.radiation = HydrodynamicsSpec::RadiationModel::reduced;
+  const Mesh hull = crane_mesh();
+  const HydrodynamicsBody b{{&spec, &hull, 0.0, 0.0, 0.0, kHeading}, 1, Vector6::Zero()};
+  std::vector<std::string> warnings;
+  const auto set = coefficient_set({&b.afloat, 1}, sea(), {}, warnings);
+  const auto element = [&](HydrodynamicsSpec::RadiationModel model, double tolerance) {
+    spec.hydrodynamics.radiation = model;
+    PanelMethodSpec method;
+    method.fit_tolerance = tolerance;
+    return build_hydrodynamics({b}, set, waves(), sea(), method, warnings);
+  };
+  CHECK(warnings.empty());
+  // One part in a million is below what the truncated kernels of the file can be fitted to.
+  const auto reduced = element(HydrodynamicsSpec::RadiationModel::reduced, 1e-6);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("retardation functions are used instead") != std::string::npos);
+  CHECK(warnings[0].find("panel_method.fit_tolerance") != std::string::npos);
+  CHECK(reduced->same_as(*element(HydrodynamicsSpec::RadiationModel::retardation, 1e-6)));
+  CHECK(warnings.size() == 1);
+}
+
 TEST_CASE("hydrodynamics that cannot be are refused by name", "[hydrodynamics]") {
   BodySpec spec = crane(HydrodynamicsSpec::Kind::table);
   SeaSpec water = sea();

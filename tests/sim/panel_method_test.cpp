@@ -129,6 +129,64 @@ TEST_CASE("box hull against frequency-domain codes", "[rankine][slow]") {
   }
 }
 
+TEST_CASE("damping of hulls whose sides and bottom work against each other", "[rankine][slow]") {
+  // Truth: the radiated energy on panels 0.45 times (square) and 0.6 times (long barge) as long, which differs by 0.5 %
+  // from that on panels half as fine; the pressure on the hull is 10 % off here on the panels of the default.
+  struct Truth {
+    Vector3 size;
+    double draft;
+    int mode;
+    std::vector<std::pair<double, double>> B;  // rad/s, N m s
+  };
+  const std::vector<Truth> truths = {
+      {{30.0, 30.0, 6.5}, 2.5, 5, {{1.3643, 3.8111e7}, {1.4953, 8.6956e7}, {1.5798, 9.9647e7}, {1.6691, 9.5967e7}}},
+      {{120.0, 25.0, 10.0}, 6.0, 3, {{0.6903, 3.2264e7}, {0.8300, 2.6416e7}, {0.9531, 1.5547e7}, {0.9980, 1.1713e7}}}};
+  for (const Truth& truth : truths) {
+    PanelHull hull;
+    hull.name = "barge";
+    hull.box_size = truth.size;
+    hull.box_centre = {0.0, 0.0, 0.5 * truth.size.z() - truth.draft};
+    hull.mesh = box_mesh(hull.box_size, hull.box_centre, 4.0);
+    PanelMethodOptions options;
+    for (const auto& [w, B] : truth.B) options.chosen.push_back(w);
+    const HydrodynamicCoefficients c = panel_method({hull}, options);
+    double largest = 0.0;
+    for (const auto& [w, B] : truth.B) largest = std::max(largest, B);
+    for (std::size_t f = 0; f < truth.B.size(); ++f) {
+      INFO(truth.size.transpose() << ", " << truth.B[f].first << " rad/s");
+      // 3 %: what panels of the default leave of B (coefficient_checks.cpp).
+      CHECK(c.frequency[f + 1].B(truth.mode, truth.mode) == Approx(truth.B[f].second).margin(0.03 * largest));
+    }
+    for (const SelfCheck& check : self_checks(c)) {
+      INFO(check.key << " " << check.value << " " << check.detail);
+      CHECK(check.passed());
+    }
+  }
+}
+
+TEST_CASE("parts of the band meet", "[rankine]") {
+  // Two frequencies 0.4 % apart on either side of where two parts meet, at sqrt(0.5 1.2): what changes between them is
+  // what changes between their neighbours, not the difference of two grids.
+  PanelHull hull = box_hull();
+  PanelMethodOptions options;
+  options.headings = 8;
+  options.refinement = 0.5;  // coarse panels differ most
+  options.chosen = {0.5, 0.6, 0.7, 0.7715, 0.7746, 0.7777, 0.85, 1.0, 1.2};
+  PanelMethodReport report;
+  const HydrodynamicCoefficients c = panel_method({hull}, options, &report);
+  REQUIRE(report.bands.size() == 2);
+  const double joint = report.bands[0].to;
+  CHECK(joint == Approx(0.7746).epsilon(0.005));
+  for (int i = 0; i < 6; ++i) {
+    double largest = 0.0;
+    for (const FrequencyCoefficients& at : c.frequency) largest = std::max(largest, std::abs(at.A(i, i)));
+    // Second difference over the three: curvature over 0.4 % of the frequency is 1e-4 of A at most.
+    const double bend = c.frequency[4].A(i, i) - 2.0 * c.frequency[5].A(i, i) + c.frequency[6].A(i, i);
+    INFO("mode " << i + 1);
+    CHECK(std::abs(bend) < 0.002 * largest);
+  }
+}
+
 TEST_CASE("Haskind's relation against the diffraction problem itself", "[rankine]") {
   PanelHull hull = box_hull();
   // Off its origin, so that reference points and phases count; as a mesh, so that there is no box to fall back on.
@@ -240,7 +298,8 @@ TEST_CASE("the water between two long hulls resonates, is damped and is found", 
   CHECK(free.gap_rise > 1.02 * damped.gap_rise);
   CHECK(free.gap_frequency > 0.95);
   CHECK(free.gap_frequency < 1.35);
-  CHECK_THAT(set.description, Catch::Contains("resonance of the gap"));
+  CHECK(set.gap_rise == free.gap_rise);
+  CHECK(set.gap_frequency == free.gap_frequency);
 }
 
 }  // namespace stillhook

@@ -1,11 +1,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "sim/hull/coefficient_file.h"
+#include "sim/hull/state_space_cache.h"
 #include "sim/hull/state_space_fit.h"
 #include "sim/specification.h"
 #include "tests/sim/resonant_radiation.h"
+#include "tests/sim/temporary_folder.h"
 
 namespace stillhook {
 namespace {
@@ -230,6 +233,43 @@ TEST_CASE("a state space that cannot be had is refused", "[state_space]") {
   options = {};
   options.highest_order = 3;
   CHECK_THAT(message(good, options), Contains("highest_order"));
+}
+
+TEST_CASE("where no order meets the tolerance the best is taken, if that is acceptable", "[state_space]") {
+  const HydrodynamicCoefficients c = read_coefficient_file(kCrane);
+  CHECK_THROWS_AS(fit_state_space(c, {.tolerance = 1e-6}), SpecificationError);
+  const StateSpaceModel best = fit_state_space(c, {.tolerance = 1e-6, .acceptable = 0.05});
+  CHECK(best.report.worst_error() > 1e-6);
+  CHECK(best.report.worst_error() <= 0.05);
+  for (const StateSpaceBlockReport& block : best.report.blocks) CHECK(block.passivity_margin > 0.0);
+}
+
+TEST_CASE("a fit is found once and reads back to the last bit", "[state_space]") {
+  const TemporaryFolder folder;
+  const char* before = std::getenv("STILLHOOK_CACHE");
+  const std::string kept = before ? before : "";
+  setenv("STILLHOOK_CACHE", (folder / "").c_str(), 1);
+  HydrodynamicCoefficients c = read_coefficient_file(kCrane);
+  c.A_inf *= 1.0 + 1e-9;  // no other test has met this set
+  const KnownStateSpace first = known_state_space(c, 0.03);
+  REQUIRE(first.fit);
+  CHECK(folder.files() == 1);
+  // What a later process reads.
+  const std::optional<KnownStateSpace> again = read_state_space(state_space_file(c, 0.03), c.modes());
+  REQUIRE(again);
+  REQUIRE(again->fit);
+  for (const double w : {0.1, 0.7, 1.9}) CHECK(again->fit->transfer({0.0, w}) == first.fit->transfer({0.0, w}));
+  CHECK(again->fit->states() == first.fit->states());
+  // That there is none is remembered too.
+  CHECK_FALSE(known_state_space(c, 1e-6).fit);
+  const std::optional<KnownStateSpace> none = read_state_space(state_space_file(c, 1e-6), c.modes());
+  REQUIRE(none);
+  CHECK_FALSE(none->fit);
+  CHECK(none->fault.find("no state space of") != std::string::npos);
+  if (before)
+    setenv("STILLHOOK_CACHE", kept.c_str(), 1);
+  else
+    unsetenv("STILLHOOK_CACHE");
 }
 
 TEST_CASE("a little coupling is named, not kept", "[state_space]") {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/spatial/constants.h"
+#include "sim/specification.h"
 
 namespace stillhook::rankine {
 namespace {
@@ -42,6 +43,20 @@ std::vector<double> frequencies_of(const PanelMethodOptions& options) {
 }
 
 }  // namespace
+
+void require_options(const PanelMethodOptions& o) {
+  const auto bad = [](const char* field, const char* rule) { throw SpecificationError("panel method", field, rule); };
+  if (!(o.density > 0.0)) bad("density", "must be > 0");
+  if (!(o.gravity > 0.0)) bad("gravity", "must be > 0");
+  if (!(o.lowest > 0.0 && o.highest > o.lowest)) bad("highest", "must be above the lowest frequency, which must be > 0");
+  for (std::size_t i = 0; i < o.chosen.size(); ++i)
+    if (!(o.chosen[i] > 0.0) || (i > 0 && !(o.chosen[i] > o.chosen[i - 1])))
+      bad("chosen", "must be ascending frequencies > 0");
+  if (o.frequencies < 4) bad("frequencies", "must be at least 4");
+  if (o.headings != 0 && o.headings < 4) bad("headings", "must be at least 4, or 0");
+  if (!(o.gap_damping >= 0.0)) bad("gap_damping", "must be >= 0");
+  if (!(o.refinement > 0.0)) bad("refinement", "must be > 0");
+}
 
 std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options) {
   const std::vector<double> frequencies = frequencies_of(options);
@@ -89,7 +104,7 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
 int headings_for(const Layout& layout, const PanelMethodOptions& options) {
   if (options.headings > 0) return options.headings;
   double length = 0.0;
-  for (const Placement& p : layout.hulls) length = std::max({length, p.length, p.breadth});
+  for (const Placement& p : layout.hulls) length = std::max(length, std::hypot(p.length, p.breadth));
   const double highest = frequencies_of(options).back();
   const double k = highest * highest / options.gravity;
   return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));

@@ -8,6 +8,9 @@
 
 namespace stillhook::rankine {
 
+/// Throws SpecificationError("panel method") for options out of range.
+void require_options(const PanelMethodOptions& options);
+
 /// The parts of the band, ascending; the last frequency of each is the first of the next. Panels and memory are not
 /// counted yet.
 std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options);
@@ -15,7 +18,7 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
 FreeSurfaceGrid grid_of(const PanelBand& band);
 Beach beach_of(const PanelBand& band, const PanelMethodOptions& options);
 
-/// Headings around the circle that resolve exp(i k R cos b), R half the length of the longest hull, with a margin; or
+/// Headings around the circle that resolve exp(i k R cos b), R half the diagonal of the largest hull, with a margin; or
 /// what the options say.
 int headings_for(const Layout& layout, const PanelMethodOptions& options);
 
