@@ -14,7 +14,7 @@
 namespace stillhook {
 namespace {
 
-constexpr double kNegligible = 5e-3;
+constexpr double kNegligibleCoupling = 5e-3;
 constexpr int kSampled = 6;          // frequencies of the table of pairs
 constexpr int kExcitationRows = 14;  // frequencies of the table of X
 
@@ -144,7 +144,7 @@ std::vector<std::pair<int, int>> coupled_pairs(const HydrodynamicCoefficients& s
         diagonal_i = std::max(diagonal_i, f.B(i, i));
         diagonal_j = std::max(diagonal_j, f.B(j, j));
       }
-      if (most > kNegligible || largest_B > kNegligible * std::sqrt(diagonal_i * diagonal_j)) pairs.emplace_back(i, j);
+      if (most > kNegligibleCoupling || largest_B > kNegligibleCoupling * std::sqrt(diagonal_i * diagonal_j)) pairs.emplace_back(i, j);
     }
   return pairs;
 }

@@ -197,7 +197,7 @@ void MetricList::add(const std::string& pattern, const std::string& element, dou
   if (found == catalogue.end()) throw std::logic_error("metric " + pattern + " is not in the catalogue");
   if (!std::isfinite(value)) return;
   metrics_.items.push_back(
-      {with_element(pattern, element), found->unit, in_unit(value, found->unit), time, std::move(phase)});
+      {with_element(pattern, element), found->unit, in_unit(value, found->unit), time, std::move(phase), {}});
 }
 
 Metrics compute_metrics(const Specification& specification, const Trajectory& trajectory) {

@@ -12,7 +12,7 @@
 namespace stillhook {
 namespace {
 
-constexpr double kTonne = 1000.0 * kStandardGravity;
+constexpr double kTonneForce = 1000.0 * kStandardGravity;
 
 std::vector<const WireSpec*> hoist_wires(const Specification& s) {
   std::vector<const WireSpec*> wires;
@@ -67,7 +67,7 @@ double sum_of(const std::vector<const WireSpec*>& wires, double WireSpec::*limit
   return sum;
 }
 
-std::string tonnes(double newton) { return fixed_number(newton / kTonne, 1); }
+std::string tonnes(double newton) { return fixed_number(newton / kTonneForce, 1); }
 
 std::string phase_table(const RunView& view, const std::vector<const WireSpec*>& wires) {
   const double winches = sum_of(wires, &WireSpec::tension_max), breaking = sum_of(wires, &WireSpec::breaking_load);
@@ -92,7 +92,7 @@ std::string daf_table(const ReportData& data, double weight, double hook_load) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [place, name] :
        {std::pair{LiftPlace::onshore, "onshore"}, {LiftPlace::inshore, "inshore"}, {LiftPlace::offshore, "offshore"}}) {
-    const double daf = tabulated_daf(place, weight / kTonne, hook_load / kTonne);
+    const double daf = tabulated_daf(place, weight / kTonneForce, hook_load / kTonneForce);
     rows.push_back({std::string("tabulated, ") + name, fixed_number(daf, 3), tonnes(hook_load), tonnes(daf * hook_load),
                     "0027/ND rev 11.2, Table 5-1"});
   }
