@@ -77,6 +77,11 @@ std::optional<Value> Table::default_of(const Field& field) const {
 }
 
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& candidates) {
+  // "Z" for "z": one letter changed is a whole word changed, but it is the same word.
+  const auto same_letter = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  for (const std::string& candidate : candidates)
+    if (candidate != word && std::equal(word.begin(), word.end(), candidate.begin(), candidate.end(), same_letter))
+      return candidate;
   std::optional<std::string> best;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

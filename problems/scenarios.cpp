@@ -36,7 +36,8 @@ void expand(const Case& c, const ScenarioSpec& scenario, int count, int seed_off
 std::vector<ScenarioSpec> given(const Case& c) {
   if (!c.plan.scenarios.empty()) return c.plan.scenarios;
   ScenarioSpec only;
-  only.name = only.sea = c.specification.sea.active;
+  const std::string& active = c.specification.sea.active;
+  only.name = only.sea = active.empty() ? "calm" : active;  // a case without a sea is one in calm water
   return {only};
 }
 
@@ -64,7 +65,7 @@ std::vector<ScenarioSpec> fresh_scenarios(const Case& c, int count) {
   constexpr double kShift = 0.381966;
   for (const ScenarioSpec& s : given(c)) {
     const SeaStateSpec* sea = sea_of(c, s);
-    const bool calm = sea && sea->type == SeaStateSpec::Type::calm;
+    const bool calm = !sea || sea->type == SeaStateSpec::Type::calm;
     expand(c, s, calm ? 1 : count, kFreshSeeds, calm ? 0.0 : kShift, all);
   }
   return all;

@@ -52,14 +52,17 @@ void take_resting(const RunView& view, std::size_t p, const std::string& channel
   const auto tension = view.series(channel);
   const double low = std::min(view.static_value(p, channel), view.static_value(p + 1, channel));
   const bool landed = view.run().phases[p].stage != Stage::transfer;
-  const RunView::Range range = view.samples(p);
-  for (std::size_t i = range.first; i < range.last && i < tension.size(); ++i) {
-    const double t = view.run().time[i], whole = static_load(view, p, t, {channel});
-    if (!(whole > 0.0)) continue;
+  const auto take = [&](double tension_then, double t) {
+    const double whole = static_load(view, p, t, {channel});
+    if (!(whole > 0.0)) return;
     const bool free = t >= free_from && t < free_until && view.run().phases[p].stage != Stage::landed;
-    if (free) smallest.take_smaller(tension[i] / whole, t);
-    if (!free && landed && t >= free_until && low > kMeantToHold * whole) smallest.take_smaller(tension[i] / low, t);
-  }
+    if (free) smallest.take_smaller(tension_then / whole, t);
+    if (!free && landed && t >= free_until && low > kMeantToHold * whole) smallest.take_smaller(tension_then / low, t);
+  };
+  // The smallest of every step, should it fall into the time that counts, and else what the samples know.
+  if (const Peak least = view.minimum(channel, {p}); least.valid()) take(least.value, least.time);
+  const RunView::Range range = view.samples(p);
+  for (std::size_t i = range.first; i < range.last && i < tension.size(); ++i) take(tension[i], view.run().time[i]);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace stillhook {
 namespace {
 
-constexpr rlim_t kSeconds = 20;              // of processor time, and one more for each megabyte
+constexpr rlim_t kSeconds = 3;               // of processor time, and one more for each megabyte
 constexpr rlim_t kMemory = rlim_t{1} << 30;  // bytes beyond what the process has
 constexpr rlim_t kMemoryPerByte = 64;        // of the file: numbers may be compressed that well
 constexpr int kTooMuchMemory = 3;            // exit code of the child

@@ -112,7 +112,9 @@ std::optional<double> smooth_sway(const RunView& view, const std::string& name, 
   if (dot != std::string::npos) {
     phases.clear();
     for (std::size_t p = 0; p < view.run().phases.size(); ++p)
-      if (view.run().phases[p].name == name.substr(dot + 1)) phases.push_back(p);
+      if (const PhaseRecord& phase = view.run().phases[p];
+          phase.name == name.substr(dot + 1) && (phase.stage == Stage::hanging || phase.stage == Stage::set_down))
+        phases.push_back(p);
   }
   if (phases.empty()) return std::nullopt;
   const std::string stem = name.substr(0, dot);
@@ -122,13 +124,14 @@ std::optional<double> smooth_sway(const RunView& view, const std::string& name, 
   const auto square = [&](std::size_t p, std::size_t i) {
     return (x.empty() ? 0.0 : x[p][i] * x[p][i]) + (y.empty() ? 0.0 : y[p][i] * y[p][i]);
   };
-  if (!peak) return std::sqrt(window_mean(view, phases, square));
-  return std::sqrt(std::max(0.0, soft_peak(view, phases, options.sharpness, square)));
+  const double whole = peak ? soft_peak(view, phases, options.sharpness, square) : window_mean(view, phases, square);
+  if (std::isnan(whole)) return std::nullopt;  // the load hangs at neither end of a phase
+  return std::sqrt(std::max(0.0, whole));
 }
 
 /// Soft peak of (sum of tensions) / (static load) over the hanging phases. Where a wire takes up or lets go of the load
-/// the ratio runs from 0 to 1, which is no scale for a peak a few parts in a hundred above 1: what is larger there counts
-/// as it is.
+/// the ratio runs from 0 to 1, which is no scale for a peak a few parts in a hundred above 1: what is larger there
+/// counts as it is. NaN for wires that at rest hold nothing at any time.
 double soft_ratio(const RunView& view, const std::vector<std::string>& wires, const SmoothOptions& options) {
   const std::vector<std::size_t> phases = view.phases_of({Stage::hanging});
   std::vector<std::string> channels;
@@ -136,26 +139,37 @@ double soft_ratio(const RunView& view, const std::vector<std::string>& wires, co
   const Tables ratio = tables(view, phases, [&](std::size_t p, std::size_t i) {
     double tension = 0.0;
     for (const std::string& channel : channels) tension += view.series(channel)[i];
-    return tension / static_load(view, p, view.run().time[i], channels);
+    const double at_rest = static_load(view, p, view.run().time[i], channels);
+    return at_rest > 0.0 ? tension / at_rest : 0.0;  // as the metric, which passes over such a moment
   });
   const double soft =
       soft_peak(view, phases, options.sharpness, [&](std::size_t p, std::size_t i) { return ratio[p][i]; });
   const Peak elsewhere = largest_amplification(
       view, channels, view.phases_of({Stage::on_barge, Stage::transfer, Stage::set_down, Stage::landed}));
+  if (!(soft > 0.0)) return elsewhere.value;
   return elsewhere.value > soft ? elsewhere.value : soft;
 }
+
+/// A value of the search, empty for one that is not there.
+std::optional<double> if_any(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 std::optional<double> smooth_daf(const RunView& view, const std::string& name, const SmoothOptions& options) {
   const HoistWires hoist(view.specification());
   if (view.phases_of({Stage::hanging}).empty() || hoist.names.empty()) return std::nullopt;
-  if (name == "daf_total") return soft_ratio(view, hoist.names, options);
-  if (name.starts_with("daf.")) return soft_ratio(view, {name.substr(4)}, options);
-  // The larger of the wires, smoothly: they swing together, so the root mean of high powers.
-  constexpr double kPower = 64.0;
+  if (name == "daf_total") return if_any(soft_ratio(view, hoist.names, options));
+  if (name.starts_with("daf.")) return if_any(soft_ratio(view, {name.substr(4)}, options));
+  // The larger of the wires, smoothly: they swing together, so the root mean of high powers. It lies below the largest
+  // by at most ln(wires) / power of it, so the power grows with the sharpness: 64 for the usual one of 20.
+  const double power = 3.2 * options.sharpness;
+  std::vector<double> ratios;
+  for (const std::string& wire : hoist.names)
+    if (const double ratio = soft_ratio(view, {wire}, options); ratio > 0.0) ratios.push_back(ratio);
+  if (ratios.empty()) return std::nullopt;
+  const double largest = *std::max_element(ratios.begin(), ratios.end());
   double sum = 0.0;
-  for (const std::string& wire : hoist.names) sum += std::pow(soft_ratio(view, {wire}, options), kPower);
-  const double largest = std::pow(sum / static_cast<double>(hoist.names.size()), 1.0 / kPower);
-  return name == "daf_excess" ? largest - 1.0 : largest;
+  for (const double ratio : ratios) sum += std::pow(ratio / largest, power);  // at most one each: no overflow
+  const double together = largest * std::pow(sum / static_cast<double>(ratios.size()), 1.0 / power);
+  return name == "daf_excess" ? together - 1.0 : together;
 }
 
 /// x for x > w, 0 for x < -w, a parabola in between.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "sim/crane_parts.h"
 #include "sim/element_builder.h"
 #include "sim/hull/afloat.h"
 #include "sim/hull/damping.h"
@@ -14,6 +16,7 @@
 #include "sim/multibody/assembly.h"
 #include "sim/multibody/joint_drive.h"
 #include "sim/multibody/relaxation.h"
+#include "sim/number_text.h"
 #include "sim/start_pose.h"
 #include "sim/static_goals.h"
 
@@ -56,6 +59,7 @@ class ModelBuilder {
         begin_at_other();
       else
         find_equilibrium();
+      refuse_sunken_vessels();
       refuse_slack_supports();
       model_.warnings_ = start_pose_notes(model_, given, state());
     }
@@ -213,6 +217,29 @@ class ModelBuilder {
                              "does not float: the bodies weigh " + std::to_string(weight / 1000.0) +
                                  " t, all hulls together carry at most " +
                                  std::to_string(spec().sea.density * volume / 1000.0) + " t");
+  }
+
+  // Mooring lines, or a load that stands, can hold a vessel that went down: in balance, and no vessel any more.
+  void refuse_sunken_vessels() const {
+    for (const std::string& name : crane_vessels(spec())) {
+      const auto body =
+          std::find_if(spec().bodies.begin(), spec().bodies.end(), [&](const BodySpec& b) { return b.name == name; });
+      if (body == spec().bodies.end() || body->hull.shape == HullSpec::Shape::none) continue;
+      const BodyKinematics& k = state().body[static_cast<std::size_t>(body - spec().bodies.begin())];
+      const MeshProperties box = properties_of(build_hull_mesh(body->hull));
+      double top = -std::numeric_limits<double>::infinity();
+      for (const double x : {box.low.x(), box.high.x()})
+        for (const double y : {box.low.y(), box.high.y()})
+          for (const double z : {box.low.z(), box.high.z()})
+            top = std::max(top, (k.p_WC + k.R_WB * (Vector3(x, y, z) - body->cog)).z());
+      if (top >= 0.0) continue;
+      refuse_what_cannot_float();
+      throw SpecificationError("bodies." + name, "mass",
+                               "does not float: it comes to rest with its hull wholly under water, at least " +
+                                   number_text(-top) +
+                                   " m deep; make it lighter, its hull larger, or what it "
+                                   "carries and what pulls it down less");
+    }
   }
 
   // Newton's method on the lengths of the wires that hold a joint at its initial coordinate, with the wires of given

@@ -4,8 +4,6 @@
 
 namespace stillhook {
 
-OperationClock::OperationClock(const Operation& operation, int drives) : operation_(operation), base_(drives, 0.0) {}
-
 bool OperationClock::due(const Phase& next, double t, const Recorder& recorder, double& start, Cause& cause) const {
   if (t < phase_end_) return false;
   start = phase_end_;
@@ -36,26 +34,35 @@ void OperationClock::open_next(double start, Cause cause) {
   openings_.push_back({start, cause});
   phase_end_ = start + next.duration;
   for (const Move& move : next.moves) running_.push_back({&move, start + move.delay});
-  std::erase_if(running_, [&](const Running& r) {
-    if (r.start + r.move->profile.duration() > start) return false;
-    base_[r.move->drive] += r.move->profile.travel();
-    return true;
-  });
+}
+
+void OperationClock::record(Recorder& recorder) {
+  for (; recorded_ < openings_.size(); ++recorded_) {
+    const Phase& phase = operation_.phases[recorded_];
+    const Opening& opening = openings_[recorded_];
+    recorder.open_phase(phase.name, phase.stage, opening.start, opening.cause == Cause::timeout);
+  }
 }
 
 void OperationClock::advance(double t, Recorder& recorder) {
+  record(recorder);
   while (phase_ + 1 < static_cast<int>(operation_.phases.size())) {
     const Phase& next = operation_.phases[phase_ + 1];
     double start = 0.0;
     Cause cause = Cause::time;
     if (!due(next, t, recorder, start, cause)) return;
     open_next(start, cause);
-    recorder.open_phase(next.name, next.stage, start, cause == Cause::timeout);
+    record(recorder);
   }
 }
 
+void OperationClock::foresee(double t) {
+  while (phase_ + 1 < static_cast<int>(operation_.phases.size()) && awaited_contact() < 0 && t >= phase_end_)
+    open_next(phase_end_);
+}
+
 void OperationClock::drives_at(double t, std::span<DriveState> out) const {
-  for (std::size_t d = 0; d < out.size(); ++d) out[d] = {base_[d], 0.0};
+  for (DriveState& d : out) d = {0.0, 0.0};
   for (const Running& r : running_) {
     DriveState& d = out[r.move->drive];
     d.position += r.move->profile.position(t - r.start);

@@ -14,10 +14,14 @@ namespace stillhook {
 
 class OperationClock {
  public:
-  OperationClock(const Operation& operation, int drives);
+  explicit OperationClock(const Operation& operation) : operation_(operation) {}
 
   /// Starts every phase that is due at time t (s). Opens them in the recorder.
   void advance(double t, Recorder& recorder);
+  /// Before a step that ends at t (s): starts the phases that begin within it whatever happens in it, so that the drives
+  /// at its end move already. Phases that wait for a contact follow after the step, in advance(), which opens them all in
+  /// the recorder.
+  void foresee(double t);
   /// How each phase so far was started.
   enum class Cause { time, event, timeout };
   struct Opening {
@@ -45,13 +49,14 @@ class OperationClock {
     const Move* move;
     double start;  // s
   };
+  void record(Recorder& recorder);
   bool due(const Phase& next, double t, const Recorder& recorder, double& start, Cause& cause) const;
 
   const Operation& operation_;
-  std::vector<double> base_;  // positions reached by the moves that are over
-  std::vector<Running> running_;
+  std::vector<Running> running_;  // and those that are over, which stand at their travel
   int phase_ = -1;
   std::vector<Opening> openings_;
+  std::size_t recorded_ = 0;  // of them, in the recorder
   double phase_end_ = 0.0;  // s
 };
 

@@ -30,7 +30,7 @@ class Run {
         board_(model),
         recorder_(model, board_, options.record, out, options.sink),
         operation_(operation),
-        clock_(operation, static_cast<int>(model.specification().drives.size())),
+        clock_(operation),
         drives_(model.specification().drives.size()) {}
 
   HhtStepper& stepper() { return stepper_; }
@@ -53,6 +53,8 @@ class Run {
       // After its operation a run goes on to the next sample, so that the last phase can end between two.
       const bool sampled = !options_.record || (k - 1) % every == 0;
       if (limit_reached(t - h) || (operation_over(t - h) && sampled)) break;
+      clock_.foresee(t);
+      if (tangents_) tangents_->follow(clock_);
       if (!advance(t, h)) {
         out_.status = RunStatus::diverged;
         break;
@@ -169,7 +171,7 @@ class Run {
   }
 
   void diverged(const std::string& what) {
-    out_.message = "diverged at t = " + number_text(state_.t) + " s in phase '" + out_.phases[phase()].name +
+    out_.message = "diverged at t = " + number_text(state_.t) + " s in phase '" + out_.phases.back().name +
                    "': " + what;
   }
 

@@ -28,8 +28,7 @@ TangentPass::TangentPass(const Model& model, HhtStepper& stepper, const std::vec
     for (int side = 0; side < 2; ++side)
       lifts_.back()[side] = {std::make_unique<ChannelBoard>(*twin.model[side]),
                              std::make_unique<SystemWorkspace>(twin.model[side]->system().make_workspace()),
-                             std::make_unique<OperationClock>(*twin.operation[side],
-                                                              static_cast<int>(model.specification().drives.size()))};
+                             std::make_unique<OperationClock>(*twin.operation[side])};
   }
   choose_parts(wanted.channels);
 }

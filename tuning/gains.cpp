@@ -1,8 +1,11 @@
 #include "tuning/gains.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "problems/case_key.h"
 #include "problems/scenarios.h"
 #include "sim/simulate.h"
 
@@ -17,6 +20,29 @@ std::vector<VariableSpec> usual_gains(const Case& c) {
   return {
       {"taglines.*.kp_kN_per_deg", 0.0, std::max(0.5 * kN, 1.2 * key_value(c, "taglines.*.kp_kN_per_deg")), false, {}},
       {"taglines.*.kd_kN_s_per_deg", 0.0, std::max(2.0 * kN, 1.2 * key_value(c, "taglines.*.kd_kN_s_per_deg")), false, {}}};
+}
+
+/// Whether two keys can lead to the same value, `*` being every entry.
+bool may_meet(const std::string& a, const std::string& b) {
+  const std::vector<std::string> x = steps_of(a), y = steps_of(b);
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const std::string& s, const std::string& t) {
+    return s == t || s == "*" || t == "*";
+  });
+}
+
+/// Gains within the bounds that [plan.variables] sets for them: outside, no case can be read, neither a point of the
+/// search nor the tuned case. A variable with a guess of its own may have its value in the case anywhere.
+void keep_within_plan(const Case& c, std::vector<VariableSpec>& gains) {
+  for (VariableSpec& gain : gains)
+    for (const VariableSpec& planned : c.plan.variables) {
+      if (planned.start || !may_meet(gain.key, planned.key)) continue;
+      gain.lower = std::max(gain.lower, planned.lower);
+      gain.upper = std::min(gain.upper, planned.upper);
+      if (!(gain.lower < gain.upper))
+        throw CaseError(fmt::format(
+            "{}: [tune.variables.\"{}\"] and [plan.variables.\"{}\"] have no range in common; widen one of them", c.file,
+            gain.key, planned.key));
+    }
 }
 
 void draw_map(const Evaluator& evaluator, const Eigen::VectorXd& at, const TuningOptions& options, GainTuning& result) {
@@ -253,6 +279,7 @@ Case tuning_case(const Case& c, std::vector<std::string>* left_out) {
     throw CaseError(c.file + ": [plan.objective] has no terms: there is nothing to tune for");
   Case tuned = c;
   tuned.plan.variables = c.tune.variables.empty() ? usual_gains(c) : c.tune.variables;
+  keep_within_plan(c, tuned.plan.variables);
   tuned.plan.part = part_to_tune(c);
   if (!tuned.plan.part.whole()) {
     const std::vector<std::string> names = leave_out(tuned);

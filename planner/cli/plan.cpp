@@ -129,6 +129,8 @@ class Conclusion {
       add_new(warnings, r.warnings);
     }
     RunResult run = std::move(runs[governing]);
+    // What the page says of the cost is the search's; that of this one run is kept nowhere, so a rebuilt page lacks it.
+    run.trajectory.wall = 0.0;
     run.limits = deciding_limits(evaluator_, limits);
     run.metrics = deciding_metrics(evaluator_, metrics, run.limits, governing);
     run.warnings = warnings;

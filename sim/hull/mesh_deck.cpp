@@ -59,18 +59,20 @@ bool open_at_top_only(const Mesh& mesh, const EdgeMap& edges) {
   });
 }
 
-Mesh decked_mesh(const Mesh& mesh, double height, const std::string& what) {
+Mesh decked_mesh(const Mesh& mesh, double height, bool at_water, const std::string& what) {
   if (!(height > 0.0)) throw MeshError(what + ": the deck must lie above the rim of the mesh");
   const MeshProperties p = properties_of(mesh);
   const double top = p.high.z(), lowest = top - same_height(p);
   Mesh result = mesh;
   std::erase_if(result.triangles, [&](const auto& t) {
-    return std::ranges::all_of(t, [&](int v) { return mesh.vertices[v].z() >= lowest; });
+    return at_water && std::ranges::all_of(t, [&](int v) { return mesh.vertices[v].z() >= lowest; });
   });
   const EdgeMap edges = edges_of(result);
   std::size_t open = 0, drawn = 0;
   for (const auto& [key, edge] : edges) open += edge.count == 1;
-  if (open == 0) throw MeshError(what + ": the mesh is closed, it needs no mesh_deck_height_m");
+  if (open == 0)
+    throw MeshError(what + ": the mesh is closed, it needs no mesh_deck_height_m (a lid of the water surface, which is "
+                           "left out, lies at the top of the mesh and at z = 0 of the file)");
   if (!open_at_top_only(result, edges))
     throw MeshError(
         what + ": mesh_deck_height_m draws sides up from a rim at the top of the mesh, and of its " +

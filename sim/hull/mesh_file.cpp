@@ -313,14 +313,15 @@ Mesh read_mesh(const std::string& path, const MeshFileOptions& options, std::str
   if (!(std::max(p.low.cwiseAbs().maxCoeff(), p.high.cwiseAbs().maxCoeff()) < kFarthest))
     fail(path, "a vertex lies more than 100 km from the origin of the body; check mesh_origin_m and mesh_scale");
   mesh = welded_mesh(mesh, 1e-6 * (p.high - p.low).norm());
-  if (options.deck_height > 0.0) mesh = decked_mesh(mesh, options.deck_height, path);
+  const double top = in_file.high.z(), size = (in_file.high - in_file.low).norm();
+  const bool at_water = std::abs(top) < 1e-4 * size;  // of the file, where such codes have the still water at z = 0
+  if (options.deck_height > 0.0) mesh = decked_mesh(mesh, options.deck_height, at_water, path);
   if (options.mend) {
     std::string done;
     mesh = mended_mesh(mesh, done);
     if (mended && !done.empty()) *mended = path + ": " + done;
   }
-  const double top = in_file.high.z(), size = (in_file.high - in_file.low).norm();
-  if (extension == ".gdf" && options.deck_height == 0.0 && std::abs(top) < 1e-4 * size && mended)
+  if (extension == ".gdf" && options.deck_height == 0.0 && at_water && mended)
     *mended += (mended->empty() ? path + ": " : "; ") +
                "the mesh ends at z = 0, where such files have the still water: if that is a lid against irregular "
                "frequencies and not the deck, mesh_deck_height_m draws the sides up to the deck";

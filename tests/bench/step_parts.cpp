@@ -56,7 +56,7 @@ class OpenRun {
                 {model.specification().solver.hht_alpha, model.specification().solver.newton_tolerance}),
         board(model),
         recorder(model, board, false, out),
-        clock_(operation, static_cast<int>(model.specification().drives.size())),
+        clock_(operation),
         drives_(model.specification().drives.size()) {
     stepper.start(state);
     clock_.advance(0.0, recorder);
@@ -64,6 +64,7 @@ class OpenRun {
   void run_to(double t) {
     while (state.t < t - 0.5 * h_) {
       ++steps;
+      clock_.foresee(steps * h_);
       clock_.drives_at(steps * h_, drives_);
       if (!stepper.step(state, h_, drives_)) throw std::runtime_error("the lift diverges before its middle");
       clock_.advance(state.t, recorder);

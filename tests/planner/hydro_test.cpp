@@ -36,7 +36,7 @@ type = "calm"
 [panel_method]
 lowest_rad_per_s = 0.5
 highest_rad_per_s = 2.4
-accept_failed_checks = "haskind, kramers_kronig"  # panels as coarse as these fail them
+accept_failed_checks = "kramers_kronig"  # panels coarser than refinement = 0.5 fail it
 frequencies = 20
 )toml" << method << R"toml(
 
@@ -82,7 +82,8 @@ TEST_CASE("hydro asks for no operation in the case", "[hydro]") {
 
 TEST_CASE("hydro computes, writes every file, and takes the second run from the cache", "[hydro]") {
   const Folder folder;
-  const std::string file = write_case(folder);
+  // Panels as coarse as these leave ripples in K(1,1) that a state space meets to 3 %, not to the 2 % of the default.
+  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.5\nfit_tolerance = 0.05");
   const Result first = run_hydro(folder, {"hydro", file, "--json", "--headings", "180,90"});
   INFO(first.err);
   REQUIRE(first.code == 0);
@@ -100,13 +101,12 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
   CHECK(set["seconds"].get<double>() > 0.0);
   CHECK(set["panels"].size() > 0);
   CHECK(set["checks"].size() > 5);
-  std::size_t failed = 0;
   for (const json& check : set["checks"]) {
-    const bool accepted = check["key"] == "haskind" || check["key"] == "kramers_kronig";
-    CHECK((check["pass"].get<bool>() || accepted));
-    failed += !check["pass"].get<bool>();
+    CAPTURE(check);
+    CHECK(check["pass"].get<bool>());
   }
-  CHECK(summary["warnings"].size() == failed);  // what was accepted is told
+  CHECK(summary["warnings"].empty());
+  REQUIRE(set["fit"].contains("states"));
   CHECK(set["fit"]["states"].get<int>() > 0);
   CHECK(summary["rao"]["headings_deg"] == json({180.0, 90.0}));
   const json& heave = summary["rao"]["bodies"][0]["motions"][0]["heave"];
@@ -147,11 +147,28 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
   for (const char* part : {"Added mass of barge", "Radiation damping of barge", "Self-checks", "passivity margin"})
     CHECK(second.out.find(part) != std::string::npos);
   CHECK(json::parse(content(run_folder + "/summary.json"))["sets"][0]["from_cache"].get<bool>());
+}
 
+TEST_CASE("hydro refuses coefficients that fail a check, and says so when they are accepted", "[hydro]") {
+  const Folder folder;
+  // Kramers and Kronig find 0.28 in roll on panels of 25 m, 0.06 are allowed.
+  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.4\nfit_tolerance = 0.05");
+  const Result accepted = run_hydro(folder, {"hydro", file, "--json"});
+  INFO(accepted.err);
+  REQUIRE(accepted.code == 0);
+  const json summary = json::parse(accepted.out);
+  std::vector<std::string> failed;
+  for (const json& check : summary["sets"][0]["checks"])
+    if (!check["pass"].get<bool>()) failed.push_back(check["key"]);
+  CHECK(failed == std::vector<std::string>{"kramers_kronig"});
+  REQUIRE(summary["warnings"].size() == 1);
+  CHECK_THAT(summary["warnings"][0].get<std::string>(), Catch::Contains("\"kramers_kronig\" fails"));
+
+  // That they lie in the cache makes them no better.
   const Result refused =
       run_hydro(folder, {"hydro", file, "--out", "refused", "--set", "panel_method.accept_failed_checks=\"\""});
   CHECK(refused.code == 2);
-  CHECK(refused.err.find("the coefficients fail") != std::string::npos);
+  CHECK_THAT(refused.err, Catch::Contains("the coefficients fail") && Catch::Contains("accept_failed_checks"));
   CHECK_FALSE(fs::exists(folder / "refused/summary.json"));
 }
 

@@ -11,7 +11,7 @@ TEST_CASE("a search goes on after changes of what it does not depend on, and of 
     return store_identity(read_case(lift, overrides)).problem;
   };
   const std::string as_it_is = problem({});
-  for (const Override& same : std::vector<Override>{{"title", "Another title"},
+  for (const Override& same : std::vector<Override>{{"title", "\"Another title\""},
                                                     {"fit.iterations", "7"},
                                                     {"fit.cross_validate", "false"},
                                                     {"tune.evaluations", "9"},

@@ -36,6 +36,10 @@ TEST_CASE("tune: the verdict is that of its limits, and the map shows objectives
   for (const auto& limit : summary["limits"]) CHECK(limit["pass"].get<bool>());
   CHECK(summary["within_limits"].get<bool>());
   CHECK(summary["metrics"].size() > 10);
+  // Gains outside the bounds of [plan.variables] make no case that can be read: the search and the map keep within.
+  CHECK(summary["variables"][0]["lower"] == 0.01);
+  CHECK(summary["variables"][0]["upper"] == 2.0);
+  CHECK(summary["variables"][1]["upper"] == 4.0);
   const std::string page = content(folder / "t/report.html");
   CHECK_THAT(page, Contains("Objective over the gains") && !Contains("best inf") && !Contains("fill=\"#ddd\""));
   // A limit that no gain keeps: the verdict says so, and the exit code.

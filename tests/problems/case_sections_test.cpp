@@ -36,7 +36,9 @@ TEST_CASE("nothing that the format has is said not to be modelled", "[case]") {
   every_key(case_table(), keys);
   CHECK(keys.size() > 200);
   for (const std::string& key : keys) {
-    if (key == "crane") continue;  // of [operation]; elsewhere it is looked for as a thing of its own
+    // "crane" is of [operation], "weight_N_per_m" of catenary [[moorings]]; elsewhere they are looked for as a crane of
+    // its own and as the weight of a wire. A table's own keys are never asked about.
+    if (key == "crane" || key == "weight_N_per_m") continue;
     CAPTURE(key);
     CHECK(not_modelled(key).empty());
   }

@@ -41,6 +41,15 @@ TEST_CASE("a vessel that no line holds is told", "[gaps]") {
   const std::string gaps = gaps_of({});
   CHECK_THAT(gaps, Contains("barge is not held in y: its period there is"));
   CHECK_THAT(gaps, !Contains("held in x"));
-  CHECK_THAT(gaps_of({{"moorings.stern.azimuth_deg", "120.0"}, {"moorings.bow.azimuth_deg", "-60.0"}}),
-             !Contains("not held in y"));
+  // Abeam, in line with the centre of gravity, so that they do not turn the barge until they hang slack: 40 kN/m in y
+  // give 2 pi sqrt(2000/40) = 45 s; x has their pretension alone.
+  const std::string abeam = gaps_of({{"moorings.bow.azimuth_deg", "90.0"},
+                                     {"moorings.bow.fairlead_m", "[0.0, 10.0, 0.0]"},
+                                     {"moorings.stern.azimuth_deg", "-90.0"},
+                                     {"moorings.stern.fairlead_m", "[0.0, -10.0, 0.0]"}});
+  CHECK_THAT(abeam, !Contains("held in y"));
+  CHECK_THAT(abeam, Contains("barge is not held in x: its period there is"));
+  // Oblique lines from bow and stern are a couple: the barge turns until both are slack, and nothing holds it.
+  const std::string oblique = gaps_of({{"moorings.stern.azimuth_deg", "120.0"}, {"moorings.bow.azimuth_deg", "-60.0"}});
+  CHECK_THAT(oblique, Contains("barge is not held in y: nothing brings it back"));
 }

@@ -88,7 +88,7 @@ void check_key(const Case& c, const std::string& key, double relative_step) {
     // What the twins' width leaves, (23 rad/s * 0.4 ms)^2 / 6 for the wire's own oscillation at the worst, beside what
     // the differences themselves are in doubt of: rounding of a run over the step, and kinks of the pull-only law that
     // fall between the two sides.
-    CHECK(truth.doubt <= 3e-3 * size + 1e-12);
+    CHECK(truth.doubt <= 3.5e-3 * size + 1e-12);
     // The tagline feels the fall's stiffness through the load's swing alone, 2e-5 N for a kN: 1e-9 N of rounding shows.
     const double seen = key == "wires.fall.axial_stiffness_kN" && channels[k] == "tagline.tension" ? 1e-9 : 1e-12;
     CHECK(error <= 1e-5 * size + 2.0 * truth.doubt + seen + (channels[k] == "fall.tension" ? rounding : 0.0));

@@ -47,11 +47,15 @@ TEST_CASE("every metric has its value on a run reduced to its channels", "[metri
     const auto smooth = smooth_metric(lift.specification, lift.trajectory, name, {}),
                smooth_there = smooth_metric(lift.specification, reduced, name, {});
     CHECK(smooth.has_value() == smooth_there.has_value());
+    if (smooth) CHECK(std::isfinite(*smooth));
+    if (smooth && name.starts_with("sway_")) CHECK(whole.find(name) != nullptr);  // none where nothing swings
     if (smooth && smooth_there) CHECK(*smooth == *smooth_there);
   }
   // Only swing where nothing hangs and the line that is not active have none in this lift.
-  for (const std::string& name : without)
+  for (const std::string& name : without) {
+    CAPTURE(name);
     CHECK((name.starts_with("sway_") || name == "tagline_saturated.tag_starboard"));
+  }
 }
 
 TEST_CASE("a smooth metric is near the one it stands for", "[metrics][smooth]") {

@@ -37,6 +37,7 @@ Specification build_specification() {
     WireSpec w;
     w.name = name;
     w.role = role;
+    if (role == WireSpec::Role::hoist) w.from = "crane";
     w.winch = winch;
     w.breaking_load = 51.9e6;
     w.tension_max = 9.0e6;

@@ -87,7 +87,8 @@ struct ElementCase {
   int report_states = 0;       // so many of the last states are for reports alone: their derivatives are not offered
   bool smooth_history = true;  // false: the step begins at a kink of the law, where there is no derivative
   double energy_time = 1e-4;   // s, of the difference of the energy
-  double step = 2e-5;          // m, rad, m/s, rad/s: of the differences
+  double step = 2e-5;          // m, rad: of the differences
+  double rate_step = 2e-5;     // m/s, rad/s
   /// Of a 3 x 3 block's norm. Richardson's rule on smooth laws leaves 1e-9; the margin covers laws with short scales.
   double tolerance = 1e-6;
 };
@@ -159,7 +160,7 @@ inline void check_derivatives(const ElementCase& c, const ForceElement& e, const
   MatrixX K(n, n), C(n, n);
   for (int j = 0; j < n; ++j) {
     K.col(j) = difference(e, s, c.time_step, m, j, false, c.step);
-    C.col(j) = difference(e, s, c.time_step, m, j, true, c.step);
+    C.col(j) = difference(e, s, c.time_step, m, j, true, c.rate_step);
   }
   check_blocks(jacobian.stiffness(), K, c.tolerance, "K");
   check_blocks(jacobian.damping(), C, c.tolerance, "C");

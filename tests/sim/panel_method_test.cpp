@@ -165,8 +165,8 @@ TEST_CASE("damping of hulls whose sides and bottom work against each other", "[r
 }
 
 TEST_CASE("parts of the band meet", "[rankine]") {
-  // Two frequencies 0.4 % apart on either side of where two parts meet, at sqrt(0.5 1.2): what changes between them is
-  // what changes between their neighbours, not the difference of two grids.
+  // Two frequencies 0.4 % apart on either side of where two parts meet, at sqrt(0.5 1.2). Computed alone, the parts are
+  // 1.0 % (roll) to 5.3 % (sway) of the largest A apart there; joined, A goes on from one to the other without a jump.
   PanelHull hull = box_hull();
   PanelMethodOptions options;
   options.headings = 8;
@@ -180,10 +180,12 @@ TEST_CASE("parts of the band meet", "[rankine]") {
   for (int i = 0; i < 6; ++i) {
     double largest = 0.0;
     for (const FrequencyCoefficients& at : c.frequency) largest = std::max(largest, std::abs(at.A(i, i)));
-    // Second difference over the three: curvature over 0.4 % of the frequency is 1e-4 of A at most.
+    // Second difference over the three. Curvature over 0.4 % of the frequency is 2e-4 of A at most (one part over the
+    // whole), but each part keeps the slope of its own panels: in sway these coarse ones have -16.2e6 and -10.1e6
+    // kg s/rad, which over 0.0031 rad/s is 0.0027 of the largest A. Half as much again; a jump would be 0.010 or more.
     const double bend = c.frequency[4].A(i, i) - 2.0 * c.frequency[5].A(i, i) + c.frequency[6].A(i, i);
     INFO("mode " << i + 1);
-    CHECK(std::abs(bend) < 0.002 * largest);
+    CHECK(std::abs(bend) < 0.004 * largest);
   }
 }
 

@@ -17,7 +17,7 @@ set(wrapped
   "<netcdf|^results/netcdf_file\\.(h|cpp)$|NetCDF"
   "<hdf5|^(sim/hull/hdf5_file|results/netcdf_file)\\.cpp$|HDF5"
   "<xlsxwriter|^results/export_xlsx\\.cpp$|libxlsxwriter"
-  "<CLI/|^planner/cli/command_(line|tree)\\.cpp$|CLI11"
+  "<CLI/|^planner/cli/(command_line|command_tree|usage_fault)\\.cpp$|CLI11"
   "<spdlog/|^planner/cli/|spdlog"
   "<nlohmann/|^(results|problems|planner)/|nlohmann-json")
 

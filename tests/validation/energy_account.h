@@ -47,7 +47,7 @@ class AccountedRun {
         state_(model_.initial_state()),
         board_(model_),
         recorder_(model_, board_, false, run_),
-        clock_(operation_, static_cast<int>(state_.drive.size())) {}
+        clock_(operation_) {}
 
   /// Throws std::runtime_error where a step does not converge.
   EnergyAccount go() {
@@ -61,6 +61,7 @@ class AccountedRun {
       const SystemState before = state_;
       const double mechanical_before = mechanical();
       const std::map<std::string, double> stored_before = stored_;
+      clock_.foresee(k * h);
       clock_.drives_at(k * h, drives);
       if (!stepper_.step(state_, h, drives)) throw std::runtime_error("no convergence at " + std::to_string(state_.t));
       state_.t = k * h;
