@@ -23,7 +23,7 @@ namespace stillhook {
 namespace {
 
 // Changes whenever the same input would give other numbers.
-constexpr const char* kMethodVersion = "rankine 3";
+constexpr const char* kMethodVersion = "rankine 4";
 constexpr const char* kMethodOfMeshes = "triangles to the diagonal";
 constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
 

@@ -22,6 +22,9 @@ constexpr double kStill = 1e-3;
 constexpr double kPhaseStep = 0.5;
 // How fast the correction fades that makes two parts of the band meet.
 constexpr double kJoint = 3.0;
+// Parts are made to meet where they differ by more than this, of the largest value of a mode. Below it the jump disturbs a
+// state space less than the bend that a correction brings.
+constexpr double kJump = 0.05;
 // Largest difference between the damping of the pressure and that of the radiated energy, as "haskind" measures it. The
 // pressure's is a small difference of large numbers where sides and bottom work against each other: in the roll of a
 // box of 120 x 25 x 6 m it is 10 % off on the panels of the default and 1 % on panels 0.6 times as long, in the yaw of a
@@ -192,10 +195,33 @@ class Computation {
     }
   }
 
-  /// The parts of the band have panels and surfaces of their own, whose errors differ: where two meet, each gives way by
-  /// half of the difference, less and less towards its other end.
+  /// Largest difference of the diagonals of two parts where they meet, of the largest value in either.
+  double jump_at(std::size_t p) const {
+    const auto largest = [&](const auto& member, int i) {
+      double most = 0.0;
+      for (const std::size_t side : {p, p + 1})
+        for (const FrequencyCoefficients& at : parts_[side]) most = std::max(most, std::abs(member(at)(i, i)));
+      return most;
+    };
+    double jump = 0.0;
+    const auto compare = [&](const auto& member) {
+      for (int i = 0; i < modes_; ++i)
+        if (const double most = largest(member, i); most > 0.0)
+          jump = std::max(jump, std::abs(member(parts_[p].back())(i, i) - member(parts_[p + 1].front())(i, i)) / most);
+    };
+    compare([](const FrequencyCoefficients& at) -> const MatrixX& { return at.A; });
+    compare([](const FrequencyCoefficients& at) -> const MatrixX& { return at.B; });
+    return jump;
+  }
+
+  /// The parts of the band have panels and surfaces of their own, whose errors differ: where two meet with a jump, each
+  /// gives way by half of the difference, less and less towards its other end.
   void join_parts() {
     for (std::size_t p = 0; p + 1 < parts_.size(); ++p) {
+      if (jump_at(p) <= kJump) {
+        parts_[p].back() = parts_[p + 1].front();
+        continue;
+      }
       const MatrixX A = 0.5 * (parts_[p].back().A - parts_[p + 1].front().A);
       const MatrixX B = 0.5 * (parts_[p].back().B - parts_[p + 1].front().B);
       for (const int side : {0, 1})
@@ -276,6 +302,8 @@ class Computation {
   void join_excitation(std::size_t p, const Matrix<Complex>& half, const ClassModes& modes) {
     ExcitationTable& X = set_.excitation;
     const double joint = report_.bands[p].to;
+    const double largest = excitation_at(joint, modes).cwiseAbs().maxCoeff();
+    if (2.0 * half.cwiseAbs().maxCoeff() <= kJump * largest) return;
     for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
       const double w = X.frequencies[f];
       if (w < report_.bands[p].from || w > report_.bands[p + 1].to) continue;

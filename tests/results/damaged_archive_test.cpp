@@ -98,7 +98,7 @@ TEST_CASE("a finished archive is sealed: one changed byte anywhere is seen", "[a
 }
 
 TEST_CASE("an archive without a seal is tried where it can do no harm", "[archive][damage]") {
-  CHECK(refused_copies(short_run(), 40) > 4);  // much of the file is bookkeeping, and the samples have checksums
+  CHECK(refused_copies(short_run(), 15) > 2);  // much of the file is bookkeeping, and the samples have checksums
 }
 
 TEST_CASE("a whole archive without a seal is tried where it can do no harm", "[archive][damage][slow]") {
@@ -109,7 +109,8 @@ TEST_CASE("a reader that does not come to an end is stopped", "[damage][slow]") 
   const TemporaryFolder folder;
   const std::string path = folder.write("x.nc", "x");
   const auto for_ever = [] {
-    for (volatile int i = 0;; i = i + 1) {
+    volatile bool turning = true;
+    while (turning) {
     }
   };
   CHECK_THROWS_WITH(try_reading(path, for_ever), Contains("cannot read it (it does not come to an end)"));
