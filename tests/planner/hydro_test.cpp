@@ -161,8 +161,7 @@ TEST_CASE("hydro refuses coefficients that fail a check, and says so when they a
   for (const json& check : summary["sets"][0]["checks"])
     if (!check["pass"].get<bool>()) failed.push_back(check["key"]);
   CHECK(failed == std::vector<std::string>{"kramers_kronig"});
-  REQUIRE(summary["warnings"].size() == 1);
-  CHECK_THAT(summary["warnings"][0].get<std::string>(), Catch::Contains("\"kramers_kronig\" fails"));
+  CHECK_THAT(summary["warnings"].dump(), Catch::Contains("kramers_kronig") && Catch::Contains("is accepted by name"));
 
   // That they lie in the cache makes them no better.
   const Result refused =

@@ -95,7 +95,7 @@ duration_s = 1.0
 TEST_CASE("too little memory is no bug") {
   const Folder folder;
   fs::copy_file(kLift, folder / "lift.toml");
-  // The matrices of panels as fine as these need a gigabyte; without them, the program takes 120 MB of addresses.
+  // The matrices of panels as fine as these need gigabytes; without them, the program takes 120 MB of addresses.
   const int code = shell(folder,
                          "sed -i 's/^hydrodynamics = .*/hydrodynamics = { kind = \"panels\" }/' lift.toml && "
                          "ulimit -v 200000 && STILLHOOK_CACHE=cache $S hydro lift.toml --threads 1 "
