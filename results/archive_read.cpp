@@ -7,9 +7,9 @@
 #include "results/archive_layout.h"
 #include "results/files.h"
 #include "results/netcdf_file.h"
-#include "results/safe_netcdf.h"
 #include "results/sealed_file.h"
 #include "results/summary.h"
+#include "sim/guarded_read.h"
 #include "sim/samples.h"
 
 namespace stillhook {

@@ -2,17 +2,12 @@
 // which takes the final name only when it is complete and on the disk.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
-namespace stillhook {
+#include "sim/file_error.h"
 
-/// A file cannot be read or written; what() names it and the reason, in one sentence.
-class FileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace stillhook {
 
 /// A file being written under a temporary name. commit() gives it its real name; without commit() it is removed and
 /// a file that already had the real name stays as it was.

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
+#include <cstring>
+#include <numeric>
+#include <string_view>
 
 #include "problems/case.h"
 #include "problems/field_table.h"
 #include "results/netcdf_file.h"
-#include "results/safe_netcdf.h"
+#include "sim/guarded_read.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -138,14 +140,55 @@ MeasuredTable read_variables(const std::string& path, const std::vector<std::str
   return table;
 }
 
+// A table as bytes, from the child that reads the file to this process, which never opens it: the number of rows, then
+// of each column its numbers, the length of its unit and the unit.
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class T>
+T take(std::string_view& bytes) {
+  T value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  bytes.remove_prefix(sizeof value);
+  return value;
+}
+
+std::string as_bytes(const MeasuredTable& table) {
+  std::string bytes;
+  put(bytes, table.rows());
+  for (std::size_t column = 0; column < table.names.size(); ++column) {
+    for (const double value : table.values[column]) put(bytes, value);
+    put(bytes, table.units[column].size());
+    bytes += table.units[column];
+  }
+  return bytes;
+}
+
+MeasuredTable from_bytes(std::string_view bytes, const std::string& path, const std::vector<std::string>& names) {
+  MeasuredTable table;
+  table.file = path;
+  table.names = names;
+  table.lines.resize(take<std::size_t>(bytes));
+  std::iota(table.lines.begin(), table.lines.end(), 1);
+  for (std::size_t column = 0; column < names.size(); ++column) {
+    std::vector<double>& values = table.values.emplace_back(table.rows());
+    for (double& value : values) value = take<double>(bytes);
+    const auto length = take<std::size_t>(bytes);
+    table.units.emplace_back(bytes.substr(0, length));
+    bytes.remove_prefix(length);
+  }
+  return table;
+}
+
 }  // namespace
 
 MeasuredTable read_measured_netcdf(const std::string& path, const std::vector<std::string>& names) {
   try {
-    return read_safely(path, [&] { return read_variables(path, names); });
-  } catch (const CaseError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
+    return from_bytes(read_in_child(path, [&] { return as_bytes(read_variables(path, names)); }), path, names);
+  } catch (const FileError& error) {
     throw CaseError(error.what());
   }
 }

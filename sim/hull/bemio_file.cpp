@@ -6,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "sim/guarded_read.h"
 #include "sim/hull/hdf5_file.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
@@ -286,7 +287,27 @@ HydrodynamicCoefficients BemioReader::read() {
 }  // namespace
 
 HydrodynamicCoefficients read_bemio(const std::string& path, const DatabaseFrame& frame) {
-  return BemioReader(path, frame).read();
+  // What is wrong with the contents comes back from the child as the three parts of its exception.
+  constexpr char kBetween = '\n';
+  std::string fault;
+  try {
+    fault = read_in_child(path, [&]() -> std::string {
+      try {
+        BemioReader(path, frame).read();
+        return {};
+      } catch (const SpecificationError& error) {
+        const std::size_t place = error.entry.size() + (error.field.empty() ? 0 : 1 + error.field.size());
+        return error.entry + kBetween + error.field + kBetween + std::string(error.what()).substr(place + 2);
+      }
+    });
+  } catch (const FileError& error) {
+    const std::string sentence = error.what(), place = path + ": ";
+    throw SpecificationError(path, "", sentence.substr(sentence.starts_with(place) ? place.size() : 0));
+  }
+  if (fault.empty()) return BemioReader(path, frame).read();
+  const std::size_t first = fault.find(kBetween), second = fault.find(kBetween, first + 1);
+  throw SpecificationError(fault.substr(0, first), fault.substr(first + 1, second - first - 1),
+                           fault.substr(second + 1));
 }
 
 }  // namespace stillhook

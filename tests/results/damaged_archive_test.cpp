@@ -9,8 +9,8 @@
 
 #include "results/archive.h"
 #include "results/files.h"
-#include "results/safe_netcdf.h"
 #include "results/sealed_file.h"
+#include "sim/guarded_read.h"
 #include "tests/results/synthetic_lift.h"
 #include "tests/sim/temporary_folder.h"
 
@@ -120,10 +120,15 @@ TEST_CASE("a reader that crashes or eats the memory is a sentence", "[damage]") 
   const TemporaryFolder folder;
   const std::string path = folder.write("x.nc", "x");
   CHECK_THROWS_WITH(try_reading(path, [] { std::raise(SIGSEGV); }),
-                    Contains("x.nc: is damaged: the NetCDF library cannot read it (Segmentation fault)"));
+                    Contains("x.nc: is damaged: the HDF5 library cannot read it (Segmentation fault)"));
   CHECK_THROWS_WITH(try_reading(path, [] { std::abort(); }), Contains("is damaged"));
   CHECK_THROWS_WITH(try_reading(path, [] { std::vector<double> all(std::size_t{1} << 40, 1.0); }),
                     Contains("says that it holds more"));
-  CHECK_NOTHROW(try_reading(path, [] { throw FileError("a sentence for later"); }));
+  CHECK_THROWS_WITH(try_reading(path, [] { throw FileError("x.nc: a sentence"); }), "x.nc: a sentence");
+  CHECK_THROWS_WITH(try_reading(path, [] { std::exit(0); }), Contains("ended its process"));
+  // More than a pipe holds at once, with every byte there is.
+  std::string long_one(300000, ' ');
+  for (std::size_t i = 0; i < long_one.size(); ++i) long_one[i] = static_cast<char>(i % 256);
+  CHECK(read_in_child(path, [&] { return long_one; }) == long_one);
   CHECK_NOTHROW(try_reading(path, [] {}));
 }

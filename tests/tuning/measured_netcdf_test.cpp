@@ -184,8 +184,6 @@ TEST_CASE("no damage to a file ends the program", "[netcdf]") {
     bytes.assign(std::istreambuf_iterator<char>(in), {});
   }
   const auto reads = [&](const std::string& changed) {
-    // Another file every time: of one that it fails to read, HDF5 may keep a handle, and would take what it remembers
-    // of it for the contents of whatever is written over it.
     std::filesystem::remove(bad);
     std::ofstream(bad, std::ios::binary) << changed;
     try {
