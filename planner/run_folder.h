@@ -3,18 +3,18 @@
 // coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at all.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
 #include "planner/folder_lock.h"
 #include "problems/case.h"
+#include "sim/error.h"
 
 namespace stillhook {
 
 /// The command line asks for something that cannot be done. what() is a sentence.
-class UsageError : public std::runtime_error {
+class UsageError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 class RunFolder {

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "problems/fit_spec.h"
 #include "results/limits.h"
+#include "sim/error.h"
 #include "sim/operation.h"
 #include "sim/specification.h"
 
@@ -90,6 +90,8 @@ struct Override {
 struct Case {
   std::string name;
   std::string title;
+  std::string project, revision, author, checked_by;  // head and foot of reports; empty = not given
+  std::optional<double> north;           // rad, true north from +x, counter-clockwise; of reports and the replay
   std::string directory;                 // of the case file; relative file names start here
   Specification specification;
   std::vector<LimitSpec> limits;
@@ -105,9 +107,9 @@ struct Case {
 
 /// Bad input: what, where, which rule, which value. what() is the whole sentence, e.g.
 /// "calm.toml:2:1: [sea] tp_s: must be > 0 s, got -3".
-class CaseError : public std::runtime_error {
+class CaseError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// Reads and checks a case file. Throws CaseError; collects every error it can (up to 20) before throwing, one per line.

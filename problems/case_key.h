@@ -3,19 +3,19 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "problems/case_document.h"
 #include "problems/field_table.h"
+#include "sim/error.h"
 
 namespace stillhook {
 
 /// A key that leads nowhere; what() is "[section] step: sentence".
-class KeyError : public std::runtime_error {
+class KeyError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// A place that a key leads to. The value itself may be absent.

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/file_error.h"
+#include "sim/error.h"
 
 namespace stillhook {
 

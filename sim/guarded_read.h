@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "sim/file_error.h"
+#include "sim/error.h"
 
 namespace stillhook {
 

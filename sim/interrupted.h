@@ -1,14 +1,14 @@
 // The end of a long computation because the user asked for it.
 #pragma once
 
-#include <stdexcept>
+#include "sim/error.h"
 
 namespace stillhook {
 
 /// Thrown by a computation whose progress callback says that it shall stop.
-class Interrupted : public std::runtime_error {
+class Interrupted : public Error {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  Interrupted() : Error("interrupted") {}
 };
 
 }  // namespace stillhook

@@ -4,24 +4,15 @@
 
 #include <array>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "sim/error.h"
+#include "sim/hull/self_check_tolerances.h"
+#include "sim/rao_spec.h"
 #include "sim/spatial/pose.h"
 
 namespace stillhook {
-
-/// A specification that cannot be built: which entry ("wires.hoist_port"), which field of it (may be empty), the rule
-/// that is broken and the value, as a sentence.
-class SpecificationError : public std::runtime_error {
- public:
-  SpecificationError(std::string entry_, std::string field_, const std::string& sentence)
-      : std::runtime_error(entry_ + (field_.empty() ? "" : "." + field_) + ": " + sentence),
-        entry(std::move(entry_)),
-        field(std::move(field_)) {}
-  std::string entry, field;
-};
 
 // ---- sea ------------------------------------------------------------------------------------------------------
 
@@ -64,6 +55,7 @@ struct HullSpec {
   Vector3 mesh_origin = Vector3::Zero();  // m, position in B of the file's origin
   RollPitchYaw mesh_attitude;          // rad, of the file's axes in B
   bool mesh_mend = false;              // turn triangles that face inwards, close small holes, leave out inner shells
+  bool mesh_mirror = false;            // the file is one side of the hull, mirrored at its plane y = 0
   double mesh_deck_height = 0.0;       // m, > 0: closes a wetted surface, deck this far above its rim; 0 = it has a deck
   double panel_length = 0.0;           // m, target edge of a panel; 0 = automatic
   FroudeKrylov froude_krylov = FroudeKrylov::pressure;
@@ -71,8 +63,9 @@ struct HullSpec {
 
 struct HydrodynamicsSpec {
   // Where the radiation and diffraction forces come from. `panels` = the panel method on the body's hull; `table` = a
-  // file of the project's own format; `database` = WAMIT (.1, .3) or BEMIO (.h5).
-  enum class Kind { none, constant, table, panels, database };
+  // file of the project's own format; `database` = WAMIT (.1, .3) or BEMIO (.h5). `rao`: none, the waves alone move the
+  // body, by displacement RAOs.
+  enum class Kind { none, constant, table, panels, database, rao };
   // How radiation is brought into the time domain: `reduced` = a passive state space fitted to A(omega), B(omega);
   // `retardation` = convolution with K(t); `direct` = the panel method marched along (panels only).
   enum class RadiationModel { automatic, reduced, retardation, direct };  // automatic: retardation for table, else reduced
@@ -87,12 +80,15 @@ struct HydrodynamicsSpec {
   int database_body = 0;                    // which body of the database, from 1; 0 = the only one (database)
   double database_lowest = 0.0;             // rad/s, what the database has below is left out (database)
   double database_highest = 0.0;            // rad/s, what it has above is left out; 0 = nothing (database)
+  double database_depth = 0.0;              // m, of the water it was computed in; 0 = no bottom, or as it says (database)
+  bool database_in_frequency = false;       // the first column of WAMIT's files is in rad/s, not a period in s (database)
   bool port_starboard = false;              // headings 0..180 deg of the database are mirrored (database)
   bool axisymmetric = false;                // a body of revolution: one heading of the database stands for all (database)
   double panel_length = 0.0;                // m, longest panel of the hull; 0 = automatic (panels)
   double added_mass_factor = 1.0;           // 1, > 0, on A_inf (panels, table, database)
   double radiation_factor = 1.0;            // 1, >= 0, on the memory of the radiation, K(t) (panels, table, database)
   double diffraction_factor = 1.0;          // 1, on the diffraction force
+  RaoSpec rao;                              // (rao)
   std::string coupled_with;                 // body whose hull feels this one; empty = none (panels)
   std::string coupled_until;                // phase with whose start the coupling ends; empty = never (panels)
   Vector6 linear_damping = Vector6::Zero();     // viscous, N s/m and N m s, per degree of freedom about the cog
@@ -111,18 +107,25 @@ struct BodySpec {
   Vector3 angular_velocity = Vector3::Zero();  // rad/s, in B at the start
   HullSpec hull;
   HydrodynamicsSpec hydrodynamics;
+
+  /// The sea alone moves it, no force does.
+  bool moved_by_sea() const { return hydrodynamics.kind == HydrodynamicsSpec::Kind::rao; }
+  /// It has a hull whose pressure carries it.
+  bool floats() const { return hull.shape != HullSpec::Shape::none && !moved_by_sea(); }
 };
 
 /// How coefficients are computed and what is accepted of them, for all hulls.
 struct PanelMethodSpec {
   enum class Beyond { limit, cut, refuse };
-  double lowest = 0.2, highest = 2.0;  // rad/s
-  int frequencies = 32;
+  double lowest = 0.2;                 // rad/s
+  double highest = 0.0;                // rad/s; 0 = as the hull's size and the seas ask for
+  int frequencies = 0;                 // 0 = as many as the hull's size asks for
   int headings = 0;                    // around the circle; 0 = as many as the waves need
   double refinement = 1.0;             // every panel is divided by it
   double direct_step = 0.15;           // s, of the `direct` radiation model
   double direct_lowest = 0.4, direct_highest = 1.2;  // rad/s, the band its panels are made for
   std::string accepted_checks;         // self-checks that may fail (coefficients.h), with commas in between
+  SelfCheckTolerances tolerances;      // of these checks
   Beyond beyond = Beyond::limit;       // how waves shorter than those of the coefficients act, see diffraction.h
   double memory = 4.0;                 // GB, the most that a panel computation may take
   double fit_tolerance = 0.02;         // 1, of the `reduced` radiation model
@@ -208,16 +211,30 @@ struct MooringSpec {
   Type type = Type::catenary;
   std::string body;
   Vector3 fairlead = Vector3::Zero();      // m, in B
+  std::optional<Vector3> anchor;           // m, in W; absent: found from azimuth, pretension and length or distance
   double azimuth = 0.0;                    // rad, direction from the fairlead to the anchor at the initial pose, in W
-  double pretension = 0.0;                 // N, horizontal tension at the initial pose
+  double pretension = 0.0;                 // N, horizontal tension at the initial pose; not of a catenary with an anchor
   double stiffness = 0.0;                  // N/m, linear only
   double anchor_distance = 0.0;            // m, horizontal, linear only
   double length = 0.0;                     // m, unstretched, catenary
-  double weight = 0.0;                     // N/m, in water, catenary
+  double weight = 0.0;                     // N/m, in water, catenary; < 0: the line is buoyant
   double axial_stiffness = 0.0;            // N, catenary
   double seabed_friction = 0.0;            // 1, catenary
   std::string tow;                         // drive that moves the anchor, empty = fixed
   Vector3 tow_direction = Vector3::Zero(); // unit vector in W
+};
+
+/// A linear spring and damper in all six motions between a body and the world, about one point of the body.
+struct RestoringSpec {
+  std::string name;
+  std::string body;
+  Vector3 point = Vector3::Zero();          // m, in B
+  std::optional<Vector3> rest_point;        // m, in W: where the point is at rest; absent: at the initial pose
+  std::optional<RollPitchYaw> rest_attitude;  // rad, of the body at rest; absent: that of the initial pose
+  std::optional<double> axes_heading;       // rad, of the axes of the matrices in W; absent: that of the rest attitude
+  Matrix6 stiffness = Matrix6::Zero();      // N/m, N, N m/rad; symmetric
+  Matrix6 damping = Matrix6::Zero();        // N s/m, N s, N m s/rad; symmetric, positive semidefinite
+  Vector3 force_at_rest = Vector3::Zero();  // N, in W, on the body
 };
 
 /// Corner points of one body against a horizontal rectangle fixed to another.
@@ -349,6 +366,7 @@ struct Specification {
   std::vector<WireSpec> wires;
   std::vector<TaglineSpec> taglines;
   std::vector<MooringSpec> moorings;
+  std::vector<RestoringSpec> restoring;
   std::vector<ContactSpec> contacts;
   std::vector<BallastSpec> ballast;
   OperationSpec operation;

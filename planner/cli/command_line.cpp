@@ -235,25 +235,17 @@ constexpr const char* kTooLittleMemory =
 int run_verb(const Request& request) {
   try {
     return complete_output(request.verb());
-  } catch (const OutputError& error) {
-    spdlog::error("{}", error.what());
   } catch (const std::bad_alloc&) {
     spdlog::error(kTooLittleMemory);
   } catch (const std::length_error&) {  // more than any machine has
     spdlog::error(kTooLittleMemory);
-  } catch (const CaseError& error) {
-    spdlog::error("{}", error.what());
-  } catch (const SpecificationError& error) {
-    spdlog::error("{}: {}", request.common.input, error.what());
-  } catch (const StoreError& error) {
-    spdlog::error("{}", error.what());
-  } catch (const UsageError& error) {
-    spdlog::error("{}", error.what());
-  } catch (const FileError& error) {
-    spdlog::error("{}", error.what());
   } catch (const Interrupted&) {
     spdlog::warn("interrupted while the panel method ran; coefficients that were complete are kept");
     return kInterrupted;
+  } catch (const SpecificationError& error) {
+    spdlog::error("{}: {}", request.common.input, error.what());
+  } catch (const Error& error) {
+    spdlog::error("{}", error.what());
   } catch (const std::exception& error) {
     const auto* failed_call = dynamic_cast<const std::system_error*>(&error);
     if (const std::string fault = output_fault(failed_call ? failed_call->code().value() : 0); !fault.empty()) {

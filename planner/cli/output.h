@@ -1,15 +1,16 @@
 // Standard output as something that can fail: a full disk, a closed pipe.
 #pragma once
 
-#include <stdexcept>
 #include <string>
+
+#include "sim/error.h"
 
 namespace stillhook {
 
 /// Standard output cannot be written; what() is a sentence with the reason.
-class OutputError : public std::runtime_error {
+class OutputError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// Hands everything printed to the system and returns `code`. Throws OutputError if some of it did not arrive.

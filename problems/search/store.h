@@ -7,17 +7,17 @@
 #include <atomic>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "problems/search/problem.h"
+#include "sim/error.h"
 
 namespace stillhook {
 
 /// A store that cannot be used: another problem's, another version's, not a store, no room. what() is a sentence.
-class StoreError : public std::runtime_error {
+class StoreError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// What an evaluation depends on besides x.

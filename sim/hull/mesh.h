@@ -7,18 +7,18 @@
 
 #include <array>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "sim/error.h"
 #include "sim/spatial/pose.h"
 
 namespace stillhook {
 
 /// A mesh that cannot be used, or a file that holds none: one sentence that names the fault and how often it occurs.
-class MeshError : public std::runtime_error {
+class MeshError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// The largest mesh that is read or made by refinement.
