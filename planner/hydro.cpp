@@ -133,7 +133,7 @@ void compute_set(const Case& c, HydroSet& set, const HydroProgress& progress) {
 void complete_sets(const Model& model, std::vector<HydroSet>& sets) {
   for (HydroSet& set : sets) {
     set.set = model.coefficients(set.bodies.front()).set;
-    set.checks = self_checks(*set.set);
+    set.checks = self_checks(*set.set, model.specification().panel_method.tolerances);
     StateSpaceOptions options;
     options.tolerance = model.specification().panel_method.fit_tolerance;
     try {

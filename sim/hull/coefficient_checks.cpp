@@ -12,32 +12,20 @@
 namespace stillhook {
 namespace {
 
-// What a set computed by a converged panel method leaves well inside, and a wrong sign, unit or reference point does
-// not: two codes agree to 1 %, truncated and interpolated kernels add up to 3 %.
-constexpr double kSymmetryLimit = 0.02;
-constexpr double kNegativeDampingLimit = 0.02;
-constexpr double kKramersKronigLimit = 0.06;
-constexpr double kTailLimit = 0.02;
-// B is known to about 3 % (roll 4 %), X to 1 %. The shipped table leaves 1.2 %; moments about a point 2 m away leave 13
-// %.
-constexpr double kHaskindLimit = 0.08;
-// The damped gap between hulls takes energy that the waves far away do not have: at the resonance of the reference lift's
-// gap 31 % in the barge's heave; on one grid 46, 19 and 2 % of that damping itself with gap damping 0.015, 0.005 and none.
-constexpr double kHaskindLimitOfSeveral = 0.35;
 // Of the largest B_ii: panels leave an error of up to 3 % of that in the short waves that hardly reach the hull's
 // bottom, where B_33 itself has all but gone.
 constexpr double kHaskindFloor = 0.4;
 // Where no spring holds a hull - surge, sway, yaw - an error dB of the damping changes a motion by dB/(w m), m the
-// inertia of the displaced water: a tenth of w m as scale lets it change by 0.1 kHaskindLimit = 0.8 %. In the other
+// inertia of the displaced water: a tenth of w m as scale lets it change by 0.1 x 8 % = 0.8 %. In the other
 // modes B matters at resonance: there only noise is let pass.
 constexpr double kDampingInertia = 0.1, kDampingNoise = 1e-5;
 // There too an error dA counts beside m + A: the added mass of a shallow barge in sway is a tenth of m, that in heave as
-// large as m. With half of m as scale both may change a motion by half of kKramersKronigLimit.
+// large as m. With half of m as scale both may change a motion by half of 6 %.
 constexpr double kAddedInertia = 0.5;
-// In long waves (k length/2 <= 1) the terms left out reach 1 - sin(1)/1 = 16 %; a wrong sign of the phase gives 200 %.
-constexpr double kLongWave = 1.0;
-constexpr double kLongWavePhaseLimit = 0.5;
-constexpr double kLongWaveHeaveLimit = 0.2;
+constexpr double kLongWave = 1.0;  // k length/2
+// Keys of the section panel_method that several checks share.
+constexpr const char* kSymmetryKey = "symmetry_tolerance";
+constexpr const char* kNegativeDampingKey = "negative_damping_tolerance";
 // Grids of frequencies leave a factor 2.3 between neighbours at most; an added mass that was divided by w^2 has no
 // limit.
 constexpr double kLowFrequencyLimit = 3.0;
@@ -108,8 +96,9 @@ SelfCheck check_finite(const HydrodynamicCoefficients& c) {
   return check;
 }
 
-SelfCheck check_kernel_damping(const HydrodynamicCoefficients& c) {
-  SelfCheck check{"kernel_damping", "B(w) >= 0 of the retardation functions", "", 0.0, kNegativeDampingLimit};
+SelfCheck check_kernel_damping(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t) {
+  SelfCheck check{"kernel_damping", "B(w) >= 0 of the retardation functions", "", 0.0, t.negative_damping,
+                  kNegativeDampingKey};
   // Up to 2.5 rad/s: the sea has no energy above, and panel methods little to say there.
   const int points = 50;
   const double highest = 2.5;
@@ -124,9 +113,9 @@ SelfCheck check_kernel_damping(const HydrodynamicCoefficients& c) {
   return check;
 }
 
-SelfCheck check_kramers_kronig(const HydrodynamicCoefficients& c) {
+SelfCheck check_kramers_kronig(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t) {
   SelfCheck check{"kramers_kronig", "Kramers-Kronig: A(w), B(w) of the table against the retardation functions", "",
-                  0.0, kKramersKronigLimit};
+                  0.0, t.kramers_kronig, "kramers_kronig_tolerance"};
   const VectorX largest_damping = largest_diagonal(c);
   for (const FrequencyCoefficients& f : c.frequency) {
     if (f.frequency <= 0.0) continue;
@@ -154,8 +143,9 @@ SelfCheck check_kramers_kronig(const HydrodynamicCoefficients& c) {
   return check;
 }
 
-SelfCheck check_tails(const RetardationFunctions& K) {
-  SelfCheck check{"kernel_tail", "retardation functions have died out at their end", "", 0.0, kTailLimit};
+SelfCheck check_tails(const RetardationFunctions& K, const SelfCheckTolerances& t) {
+  SelfCheck check{"kernel_tail", "retardation functions have died out at their end", "", 0.0, t.kernel_tail,
+                  "kernel_tail_tolerance"};
   std::map<int, double> largest;  // of each K_ii
   const auto peak_of = [](const RetardationKernel& kernel, std::size_t from) {
     double peak = 0.0;
@@ -233,9 +223,11 @@ double diagonal_of(const HydrodynamicCoefficients& c) {
 }
 
 /// Pairs of one hull only: the positions of hulls to each other are not part of a set.
-SelfCheck check_haskind(const HydrodynamicCoefficients& c) {
+SelfCheck check_haskind(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t) {
+  const bool several = c.hulls() > 1;
   SelfCheck check{"haskind", "Haskind and Newman: B(w) against the energy of X from all around", "", 0.0,
-                  c.hulls() > 1 ? kHaskindLimitOfSeveral : kHaskindLimit};
+                  several ? t.coupled_haskind : t.haskind,
+                  several ? "coupled_haskind_tolerance" : "haskind_tolerance"};
   const ExcitationTable& X = c.excitation;
   const double headings = static_cast<double>(X.headings.size());
   MatrixX A, B;
@@ -267,13 +259,16 @@ SelfCheck check_haskind(const HydrodynamicCoefficients& c) {
 }
 
 /// Adds the checks of the excitation in long waves, where the lowest frequency is one.
-void add_long_wave_checks(const HydrodynamicCoefficients& c, std::vector<SelfCheck>& checks) {
+void add_long_wave_checks(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t,
+                          std::vector<SelfCheck>& checks) {
   const ExcitationTable& X = c.excitation;
   const double w = X.frequencies[0];
   MatrixX A, B;
   if (0.5 * w * w / c.gravity * c.length > kLongWave || !radiation_at(c, w, A, B)) return;
-  SelfCheck phase{"long_wave_phase", "phase of the excitation in long waves", "", 0.0, kLongWavePhaseLimit};
-  SelfCheck heave{"long_wave_heave", "heave force in long waves against the water plane", "", 0.0, kLongWaveHeaveLimit};
+  SelfCheck phase{"long_wave_phase", "phase of the excitation in long waves", "", 0.0, t.long_wave_phase,
+                  "long_wave_phase_tolerance"};
+  SelfCheck heave{"long_wave_heave", "heave force in long waves against the water plane", "", 0.0, t.long_wave_heave,
+                  "long_wave_heave_tolerance"};
   const VectorX B_largest = largest_diagonal(c);
   const int headings = static_cast<int>(X.headings.size());
   for (int hull = 0; hull < c.hulls(); ++hull) {
@@ -306,9 +301,9 @@ void add_long_wave_checks(const HydrodynamicCoefficients& c, std::vector<SelfChe
   if (!c.waterplane.empty()) checks.push_back(heave);
 }
 
-void add_table_checks(const HydrodynamicCoefficients& c, std::vector<SelfCheck>& checks) {
-  SelfCheck symmetry{"symmetry", "symmetry of A(w) and B(w)", "", 0.0, kSymmetryLimit};
-  SelfCheck damping{"damping", "B(w) >= 0", "", 0.0, kNegativeDampingLimit};
+void add_table_checks(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t, std::vector<SelfCheck>& checks) {
+  SelfCheck symmetry{"symmetry", "symmetry of A(w) and B(w)", "", 0.0, t.symmetry, kSymmetryKey};
+  SelfCheck damping{"damping", "B(w) >= 0", "", 0.0, t.negative_damping, kNegativeDampingKey};
   const VectorX B_scale = largest_diagonal(c);
   for (const FrequencyCoefficients& f : c.frequency) {
     worsen_symmetry(symmetry, f.A, "A", std::string(" ").append(at_frequency(f.frequency)));
@@ -323,25 +318,25 @@ void add_table_checks(const HydrodynamicCoefficients& c, std::vector<SelfCheck>&
 
 }  // namespace
 
-std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& c) {
+std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& c, const SelfCheckTolerances& tolerances) {
   std::vector<SelfCheck> checks = {check_finite(c)};
   if (!checks[0].passed()) return checks;  // the others would say nothing
-  SelfCheck symmetry{"symmetry_infinite", "symmetry of A_inf", "", 0.0, kSymmetryLimit};
+  SelfCheck symmetry{"symmetry_infinite", "symmetry of A_inf", "", 0.0, tolerances.symmetry, kSymmetryKey};
   worsen_symmetry(symmetry, c.A_inf, "A_inf", "");
   checks.push_back(symmetry);
   SelfCheck positive{"positive_infinite", "A_inf is positive semidefinite", "", 0.0, 1e-6};
   worsen(positive, -smallest_eigenvalue(normalised(c.A_inf, c.A_inf.diagonal().cwiseMax(0.0))), "");
   checks.push_back(positive);
   checks.push_back(check_displaced_mass(c));
-  if (!c.frequency.empty()) add_table_checks(c, checks);
+  if (!c.frequency.empty()) add_table_checks(c, tolerances, checks);
   if (!c.retardation.empty()) {
-    checks.push_back(check_kernel_damping(c));
-    checks.push_back(check_tails(c.retardation));
-    if (!c.frequency.empty()) checks.push_back(check_kramers_kronig(c));
+    checks.push_back(check_kernel_damping(c, tolerances));
+    checks.push_back(check_tails(c.retardation, tolerances));
+    if (!c.frequency.empty()) checks.push_back(check_kramers_kronig(c, tolerances));
   }
   if (!c.excitation.empty()) {
-    if (all_around(c.excitation.headings)) checks.push_back(check_haskind(c));
-    add_long_wave_checks(c, checks);
+    if (all_around(c.excitation.headings)) checks.push_back(check_haskind(c, tolerances));
+    add_long_wave_checks(c, tolerances, checks);
   }
   return checks;
 }
@@ -353,7 +348,8 @@ const std::vector<std::string>& acceptable_self_checks() {
   return keys;
 }
 
-void require_self_checks(const HydrodynamicCoefficients& coefficients, const std::vector<std::string>& accepted) {
+void require_self_checks(const HydrodynamicCoefficients& coefficients, const std::vector<std::string>& accepted,
+                         const SelfCheckTolerances& tolerances) {
   const std::vector<std::string>& known = acceptable_self_checks();
   for (const std::string& key : accepted)
     if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -362,12 +358,13 @@ void require_self_checks(const HydrodynamicCoefficients& coefficients, const std
       throw SpecificationError(coefficients.source, "",
                                "\"" + key + "\" is not a self-check that can be accepted; there are " + list);
     }
-  for (const SelfCheck& check : self_checks(coefficients)) {
+  for (const SelfCheck& check : self_checks(coefficients, tolerances)) {
     if (check.passed() || std::find(accepted.begin(), accepted.end(), check.key) != accepted.end()) continue;
     std::ostringstream sentence;
     sentence << "the coefficients fail \"" << check.name << "\" (" << check.key << ") " << check.detail
-             << ": deviation " << check.value << ", allowed " << check.limit
-             << "; panel_method.accept_failed_checks = \"" << check.key << "\" uses them as they are, with a warning";
+             << ": deviation " << check.value << ", allowed " << check.limit;
+    if (!check.tolerance_key.empty()) sentence << " by panel_method." << check.tolerance_key;
+    sentence << "; panel_method.accept_failed_checks = \"" << check.key << "\" uses them as they are, with a warning";
     throw SpecificationError(coefficients.source, "", sentence.str());
   }
 }

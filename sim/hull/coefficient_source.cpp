@@ -10,20 +10,21 @@
 #include <mutex>
 #include <sstream>
 
+#include "sim/hull/causal_kernels.h"
 #include "sim/hull/coefficient_file.h"
 #include "sim/hull/content_hash.h"
-#include "sim/hull/damping_transform.h"
-#include "sim/hull/database.h"
+#include "sim/hull/database_band.h"
+#include "sim/hull/database_source.h"
 #include "sim/hull/file_stiffness.h"
 #include "sim/hull/linear_froude_krylov.h"
+#include "sim/hull/sea_band.h"
 #include "sim/hull/silent_modes.h"
-#include "sim/hull/state_space_fit.h"
 
 namespace stillhook {
 namespace {
 
 // Changes whenever the same input would give other numbers.
-constexpr const char* kMethodVersion = "rankine 4";
+constexpr const char* kMethodVersion = "rankine 5";
 constexpr const char* kMethodOfMeshes = "triangles to the diagonal";
 constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
 
@@ -37,7 +38,7 @@ std::string key_of(const std::vector<PanelHull>& hulls, const PanelMethodOptions
     hash.add(o.gap_damping);
   }
   for (const double value : {o.density, o.gravity, o.lowest, o.highest, static_cast<double>(o.frequencies),
-                             static_cast<double>(o.headings), o.refinement, o.panel_length})
+                             static_cast<double>(o.headings), o.refinement, o.panel_length, o.sea_highest})
     hash.add(value);
   for (const PanelHull& hull : hulls) {
     hash.add(hull.waterline);
@@ -74,98 +75,15 @@ Set stored(const HydrodynamicCoefficients& set, const std::filesystem::path& fil
 
 double rounded_draft(double waterline) { return kDraftStep * std::round(waterline / kDraftStep); }
 
-/// A file of the project's own format, read again only when it has changed: every model of a search asks for it.
-Set read_table(const std::string& path) {
-  struct Entry {
-    std::filesystem::file_time_type time;
-    Set set;
-  };
-  static std::mutex mutex;
-  static std::map<std::string, Entry> known;
-  const std::lock_guard lock(mutex);
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(path, error);
-  const auto it = known.find(path);
-  if (!error && it != known.end() && it->second.time == time) return it->second.set;
-  return (known[path] = {time, std::make_shared<const HydrodynamicCoefficients>(without_noise(read_coefficient_file(path)))}).set;
-}
-
-Set read_file(const BodySpec& body, const HullAfloat& hull, const SeaSpec& sea) {
-  const HydrodynamicsSpec& h = body.hydrodynamics;
-  if (h.kind == HydrodynamicsSpec::Kind::table) return read_table(h.coefficient_file);
-  const MeshProperties size = properties_of(*hull.mesh);
-  DatabaseOptions options;
-  // WAMIT's files hold no volume: that of the hull as it floats, so that only BEMIO's can differ from it.
-  const double volume = LinearFroudeKrylov(*hull.mesh, hull.waterline, sea.density, sea.gravity).volume();
-  const bool bemio = is_bemio(h.coefficient_file);
-  if (bemio && !h.database_xbody.isZero())
-    throw SpecificationError(h.coefficient_file, "",
-                             "BEMIO files say themselves what their moments are about: leave database_xbody_m out");
-  options.frame.bodies = {{h.database_origin, bemio ? 0.0 : volume}};
-  options.frame.chosen = h.database_body;
-  options.frame.axisymmetric = h.axisymmetric;
-  options.frame.lowest = h.database_lowest;
-  if (h.database_highest > 0.0) options.frame.highest = h.database_highest;
-  options.frame.length = std::max(size.high.x() - size.low.x(), size.high.y() - size.low.y());
-  options.frame.port_starboard = h.port_starboard;
-  options.wamit.ulen = h.database_length;
-  options.wamit.reference = {h.database_xbody};
-  options.wamit.density = sea.density;
-  options.wamit.gravity = sea.gravity;
-  return std::make_shared<const HydrodynamicCoefficients>(without_noise(read_database(h.coefficient_file, options)));
-}
-
 std::string difference_from_hull(const HydrodynamicCoefficients& set, const HullAfloat& hull) {
   if (set.hulls() != 1 || set.stiffness.empty()) return {};
   return stiffness_difference(set, 0, *hull.mesh, hull.waterline, hull.body->cog);
 }
 
-/// K(t) of a causal, passive model that meets A(w) and B(w) with A_inf: the band ends where B has not died out, so the
-/// transform of B alone would have to guess its tail; A - A_inf knows it (Kramers-Kronig). That such a model exists is
-/// itself the check that A, B and A_inf belong together, and how far it is from them the self-check "kramers_kronig"
-/// says. Where none is near, the transform stands in: what was computed is kept in any case.
-RetardationFunctions causal_kernels(const HydrodynamicCoefficients& set) {
-  constexpr double kInterval = 0.1, kDuration = 60.0;  // s
-  StateSpaceOptions options;
-  options.tolerance = 0.02;
-  options.acceptable = 0.2;
-  StateSpaceFit fit;
-  try {
-    fit = fit_state_space(set, options).fit;
-  } catch (const SpecificationError&) {
-    return retardation_from_damping(set.frequency, {kDuration, kInterval});
-  }
-  RetardationFunctions K;
-  K.interval = kInterval;
-  const int samples = static_cast<int>(std::lround(kDuration / kInterval)) + 1;
-  std::vector<MatrixX> values;
-  for (int m = 0; m < samples; ++m) values.push_back(fit.retardation(m * kInterval));
-  for (int i = 0; i < set.modes(); ++i)
-    for (int j = 0; j < set.modes(); ++j) {
-      RetardationKernel kernel{i, j, {}};
-      for (const MatrixX& value : values) kernel.value.push_back(value(i, j));
-      if (std::any_of(kernel.value.begin(), kernel.value.end(), [](double v) { return v != 0.0; }))
-        K.kernels.push_back(std::move(kernel));
-    }
-  return K;
-}
-
-std::vector<std::string> listed(const std::string& text) {
-  std::vector<std::string> names(1);
-  for (const char letter : text) {
-    if (letter == ',')
-      names.emplace_back();
-    else if (letter != ' ')
-      names.back() += letter;
-  }
-  std::erase(names, "");
-  return names;
-}
-
-std::vector<std::string> accepted_failures(const HydrodynamicCoefficients& set, const std::string& accepted) {
-  require_self_checks(set, listed(accepted));
+std::vector<std::string> accepted_failures(const HydrodynamicCoefficients& set, const PanelMethodSpec& method) {
+  require_self_checks(set, listed_checks(method.accepted_checks), method.tolerances);
   std::vector<std::string> failures;
-  for (const SelfCheck& result : self_checks(set))
+  for (const SelfCheck& result : self_checks(set, method.tolerances))
     if (!result.passed()) {
       std::ostringstream sentence;
       sentence << set.source << ": the self-check \"" << result.key << "\" fails (" << result.value << ", at most "
@@ -199,6 +117,7 @@ void check(const Set& set, const PanelMethodSpec& method, std::vector<std::strin
   struct Entry {
     std::weak_ptr<const HydrodynamicCoefficients> set;
     std::string accepted;
+    SelfCheckTolerances tolerances;
     std::vector<std::string> failures;
   };
   static std::mutex mutex;
@@ -206,10 +125,11 @@ void check(const Set& set, const PanelMethodSpec& method, std::vector<std::strin
   const std::lock_guard lock(mutex);
   std::erase_if(known, [](const Entry& entry) { return entry.set.expired(); });
   auto entry = std::find_if(known.begin(), known.end(), [&](const Entry& e) {
-    return e.set.lock() == set && e.accepted == method.accepted_checks;
+    return e.set.lock() == set && e.accepted == method.accepted_checks && e.tolerances == method.tolerances;
   });
   if (entry == known.end())
-    entry = known.insert(known.end(), {set, method.accepted_checks, accepted_failures(*set, method.accepted_checks)});
+    entry = known.insert(known.end(),
+                         {set, method.accepted_checks, method.tolerances, accepted_failures(*set, method)});
   warnings.insert(warnings.end(), entry->failures.begin(), entry->failures.end());
 }
 
@@ -257,6 +177,7 @@ PanelMethodOptions panel_options(const SeaSpec& sea, const PanelMethodSpec& meth
   options.gravity = sea.gravity;
   options.lowest = method.lowest;
   options.highest = method.highest;
+  options.sea_highest = method.highest > 0.0 ? 0.0 : highest_of_seas(sea);
   options.frequencies = method.frequencies;
   options.headings = method.headings;
   options.refinement = method.refinement;
@@ -297,7 +218,7 @@ Set coefficient_set(std::span<const HullAfloat> hulls, const SeaSpec& sea, const
   using Kind = HydrodynamicsSpec::Kind;
   const BodySpec& body = *hulls.front().body;
   const Kind kind = body.hydrodynamics.kind;
-  if (kind == Kind::none || kind == Kind::constant) return nullptr;
+  if (kind == Kind::none || kind == Kind::constant || kind == Kind::rao) return nullptr;
   const char* field = kind == Kind::panels ? "kind" : "coefficient_file";
   try {
     double panel = 0.0;
@@ -306,16 +227,20 @@ Set coefficient_set(std::span<const HullAfloat> hulls, const SeaSpec& sea, const
         panel = own;
     Set set = kind == Kind::panels
                   ? cached_panel_method(panel_hulls(hulls), panel_options(sea, method, panel), progress, nullptr)
-                  : read_file(body, hulls.front(), sea);
+                  : file_set(hulls.front(), sea);
     warnings.insert(warnings.end(), set->remarks.begin(), set->remarks.end());
     if (const std::string difference = difference_from_hull(*set, hulls.front()); !difference.empty())
       warnings.push_back(difference);
+    if (kind == Kind::database)
+      if (const std::string difference = draft_difference(*set, hulls.front()); !difference.empty())
+        warnings.push_back(difference);
     try {
       check(set, method, warnings);
     } catch (const SpecificationError& error) {
-      if (kind != Kind::panels) throw;
+      const std::string remedy =
+          kind == Kind::panels ? finer_panels(method) : database_remedy(*set, hulls.front(), sea, method);
       throw SpecificationError(error.entry, error.field,
-                               std::string(error.what()).substr(error.entry.size() + 2) + finer_panels(method));
+                               std::string(error.what()).substr(error.entry.size() + 2) + remedy);
     }
     if (set->gap_rise > kGapResonance) warnings.push_back(gap_warning(body.name, *set));
     if (set->hulls() != static_cast<int>(hulls.size()))

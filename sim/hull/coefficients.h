@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/hull/self_check_tolerances.h"
 #include "sim/spatial/pose.h"
 
 namespace stillhook {
@@ -106,6 +107,7 @@ struct SelfCheck {
   std::string detail;  // where the worst value is
   double value = 0.0;  // the worst deviation found, dimensionless
   double limit = 0.0;  // a set with value > limit is refused
+  std::string tolerance_key = {};  // of the section panel_method, which holds the limit; empty: the limit is fixed
   bool passed() const { return value <= limit; }
 };
 
@@ -127,13 +129,15 @@ struct SelfCheck {
 ///   a
 ///                       quarter period, along the direction of the waves, and that of heave lags by w B_33
 ///   long_wave_heave     there too: X_3 + w^2 A_33 -> rho g A_waterplane
-std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& coefficients);
+std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& coefficients,
+                                   const SelfCheckTolerances& tolerances = {});
 
 /// Keys of the checks that a user may name as accepted: all but `finite`.
 const std::vector<std::string>& acceptable_self_checks();
 
 /// Throws SpecificationError(coefficients.source) with the first failed check that is not among `accepted`, and when
 /// `accepted` names a check that does not exist.
-void require_self_checks(const HydrodynamicCoefficients& coefficients, const std::vector<std::string>& accepted = {});
+void require_self_checks(const HydrodynamicCoefficients& coefficients, const std::vector<std::string>& accepted = {},
+                         const SelfCheckTolerances& tolerances = {});
 
 }  // namespace stillhook

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "sim/hull/clipped_panel.h"
 #include "sim/hull/cut_panels.h"
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/hull_mesh.h"
 #include "sim/hull/panel_strips.h"
 #include "sim/hull/wave_window.h"
-#include "sim/number_text.h"
 
 namespace stillhook {
 
@@ -381,51 +379,13 @@ double Hydrostatics::potential_energy(const Instant& now, Memory m) const {
   return weight_ * moment;
 }
 
-// The wave that carries the energy must be seen by the panels; the tail of a spectrum never is.
-void check_resolution(const BodySpec& body, const Mesh& mesh, const WaveField& waves) {
-  double energy = 0.0, moment = 0.0;
-  for (const WaveComponent& c : waves.components()) {
-    energy += c.amplitude * c.amplitude;
-    moment += c.amplitude * c.amplitude * c.wavenumber;
-  }
-  if (energy == 0.0) return;
-  const double length = 2.0 * std::numbers::pi * energy / moment;
-  const double panel = properties_of(mesh).longest_edge / std::numbers::sqrt2;
-  if (length < 5.0 * panel)
-    throw SpecificationError("bodies." + body.name, "hull.panel_length",
-                             "panels of " + number_text(panel) + " m do not resolve waves of " +
-                                 number_text(length) + " m; at most " + number_text(length / 5.0) +
-                                 " m is needed");
-}
-
 }  // namespace
-
-Mesh build_hull_mesh(const HullSpec& hull, std::string* mended) {
-  if (hull.shape == HullSpec::Shape::none) return {};
-  if (hull.panel_length < 0.0 || !std::isfinite(hull.panel_length)) throw MeshError("the panel length must be > 0 m");
-  if (hull.shape == HullSpec::Shape::box) {
-    const Vector3& s = hull.size;
-    const double area = 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
-    return box_mesh(s, hull.centre, hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(area));
-  }
-  const Mesh mesh =
-      read_mesh(hull.mesh_file,
-                {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend, hull.mesh_deck_height}, mended);
-  const double panel = hull.panel_length > 0.0 ? hull.panel_length : automatic_panel_length(properties_of(mesh).area);
-  return refined_mesh(mesh, panel * std::numbers::sqrt2);
-}
 
 std::unique_ptr<ForceElement> build_hydrostatics(const BodySpec& body, int index,
                                                  std::shared_ptr<const WaveField> waves, const SeaSpec& sea) {
   const std::string entry = "bodies." + body.name;
   if (body.hull.shape == HullSpec::Shape::none) throw SpecificationError(entry, "hull", "the body has no hull");
-  Mesh mesh;
-  try {
-    mesh = build_hull_mesh(body.hull);
-  } catch (const MeshError& error) {
-    throw SpecificationError(entry, "hull", error.what());
-  }
-  check_resolution(body, mesh, *waves);
+  const Mesh mesh = hull_mesh_in(body, *waves);
   return std::make_unique<Hydrostatics>(body, index, mesh, std::move(waves), sea);
 }
 

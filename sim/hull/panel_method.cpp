@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sim/hull/linear_froude_krylov.h"
+#include "sim/hull/rankine/band_joints.h"
 #include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/hull_modes.h"
 #include "sim/hull/rankine/memory.h"
@@ -20,11 +21,6 @@ using namespace rankine;
 constexpr double kStill = 1e-3;
 // Phase of the wave at half the hull's length from one frequency of the excitation to the next, rad.
 constexpr double kPhaseStep = 0.5;
-// How fast the correction fades that makes two parts of the band meet.
-constexpr double kJoint = 3.0;
-// Parts are made to meet where they differ by more than this, of the largest value of a mode. Below it the jump disturbs a
-// state space less than the bend that a correction brings.
-constexpr double kJump = 0.05;
 // Largest difference between the damping of the pressure and that of the radiated energy, as "haskind" measures it. The
 // pressure's is a small difference of large numbers where sides and bottom work against each other: in the roll of a
 // box of 120 x 25 x 6 m it is 10 % off on the panels of the default and 1 % on panels 0.6 times as long, in the yaw of a
@@ -72,7 +68,7 @@ class Computation {
       solve(band, [&](double within) { tell((done + within * share) / all, band); });
       done += share;
     }
-    join_parts();
+    join_all_parts();
     add_froude_krylov();
     if (hulls_.size() == 1) take_radiated_damping();
     keep_wanted_headings();
@@ -195,56 +191,14 @@ class Computation {
     }
   }
 
-  /// Largest difference of the diagonals of two parts where they meet, of the largest value in either.
-  double jump_at(std::size_t p) const {
-    const auto largest = [&](const auto& member, int i) {
-      double most = 0.0;
-      for (const std::size_t side : {p, p + 1})
-        for (const FrequencyCoefficients& at : parts_[side]) most = std::max(most, std::abs(member(at)(i, i)));
-      return most;
-    };
-    double jump = 0.0;
-    const auto compare = [&](const auto& member) {
-      for (int i = 0; i < modes_; ++i)
-        if (const double most = largest(member, i); most > 0.0)
-          jump = std::max(jump, std::abs(member(parts_[p].back())(i, i) - member(parts_[p + 1].front())(i, i)) / most);
-    };
-    compare([](const FrequencyCoefficients& at) -> const MatrixX& { return at.A; });
-    compare([](const FrequencyCoefficients& at) -> const MatrixX& { return at.B; });
-    return jump;
-  }
-
-  /// The parts of the band have panels and surfaces of their own, whose errors differ: where two meet with a jump, each
-  /// gives way by half of the difference, less and less towards its other end.
-  void join_parts() {
-    for (std::size_t p = 0; p + 1 < parts_.size(); ++p) {
-      if (jump_at(p) <= kJump) {
-        parts_[p].back() = parts_[p + 1].front();
-        continue;
-      }
-      const MatrixX A = 0.5 * (parts_[p].back().A - parts_[p + 1].front().A);
-      const MatrixX B = 0.5 * (parts_[p].back().B - parts_[p + 1].front().B);
-      for (const int side : {0, 1})
-        for (FrequencyCoefficients& at : parts_[p + side]) {
-          const double share = share_at_joint(p, side, at.frequency);
-          at.A += share * A;
-          at.B += share * B;
-        }
-    }
+  /// The parts of the band as one table.
+  void join_all_parts() {
+    join_parts(report_.bands, parts_);
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (std::size_t f = p > 0 ? 1 : 0; f < parts_[p].size(); ++f) {
         const FrequencyCoefficients& at = parts_[p][f];
         set_.frequency.push_back({at.frequency, about_origin(at.A), about_origin(at.B)});
       }
-  }
-
-  /// What part p (side 0) or the next (side 1) takes of half the difference where they meet: -1 or 1 there, 0 at its
-  /// other end.
-  double share_at_joint(std::size_t p, int side, double w) const {
-    const PanelBand& band = report_.bands[p + side];
-    if (!(band.to > band.from)) return side == 0 ? -1.0 : 1.0;
-    const double t = std::log(w / band.from) / std::log(band.to / band.from);
-    return side == 0 ? -std::pow(t, kJoint) : std::pow(1.0 - t, kJoint);
   }
 
   /// eta = i w phi/g, and a unit velocity is a motion of 1/w.
@@ -268,7 +222,7 @@ class Computation {
               const std::vector<Matrix<Complex>>& weighted, const PanelBand& band) {
     ExcitationTable& X = set_.excitation;
     const std::size_t part = static_cast<std::size_t>(&band - report_.bands.data());
-    const Matrix<Complex> before = excitation_at(band.from, modes);
+    const Matrix<Complex> before = excitation_at(X, band.from, modes.modes);
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
       const double w = X.frequencies[f];
@@ -284,34 +238,7 @@ class Computation {
               (still_[modes.modes[k]] ? 0.0 : X_D(k)) * phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity);
       }
     }
-    if (part > 0) join_excitation(part - 1, 0.5 * (before - excitation_at(band.from, modes)), modes);
-  }
-
-  /// Headings x modes.
-  Matrix<Complex> excitation_at(double w, const ClassModes& modes) const {
-    const ExcitationTable& X = set_.excitation;
-    const auto f = std::find(X.frequencies.begin(), X.frequencies.end(), w) - X.frequencies.begin();
-    Matrix<Complex> value(X.headings.size(), modes.modes.size());
-    for (std::size_t h = 0; h < X.headings.size(); ++h)
-      for (std::size_t k = 0; k < modes.modes.size(); ++k)
-        value(h, k) = X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]);
-    return value;
-  }
-
-  /// As join_parts(), of a class's modes.
-  void join_excitation(std::size_t p, const Matrix<Complex>& half, const ClassModes& modes) {
-    ExcitationTable& X = set_.excitation;
-    const double joint = report_.bands[p].to;
-    const double largest = excitation_at(joint, modes).cwiseAbs().maxCoeff();
-    if (2.0 * half.cwiseAbs().maxCoeff() <= kJump * largest) return;
-    for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
-      const double w = X.frequencies[f];
-      if (w < report_.bands[p].from || w > report_.bands[p + 1].to) continue;
-      const double share = share_at_joint(p, w < joint ? 0 : 1, w);
-      for (std::size_t h = 0; h < X.headings.size(); ++h)
-        for (std::size_t k = 0; k < modes.modes.size(); ++k)
-          X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]) += share * half(h, k);
-    }
+    if (part > 0) join_excitation(report_.bands, part - 1, before, modes.modes, X);
   }
 
   /// Carries X_D to Bo and adds X_FK.

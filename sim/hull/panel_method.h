@@ -36,8 +36,9 @@ struct PanelHull {
 
 struct PanelMethodOptions {
   double density = 1025.0, gravity = 9.80665;  // kg/m3, m/s2
-  double lowest = 0.2, highest = 2.0;          // rad/s, > 0: the band
-  int frequencies = 32;                        // >= 4, spaced evenly in the logarithm
+  double lowest = 0.2, highest = 2.0;          // rad/s, > 0: the band; highest 0 = automatic (rankine/frequencies.h)
+  double sea_highest = 0.0;                    // rad/s, what an automatic band should reach for the seas
+  int frequencies = 32;                        // >= 4, spaced evenly in the logarithm; 0 = automatic
   std::vector<double> chosen;                  // rad/s, ascending, > 0: these instead; empty = as above
   int headings = 0;                            // >= 4, evenly around the circle; 0 = as many as the waves need
   double refinement = 1.0;                     // > 0: every panel and cell is divided by it; 2 halves them all

@@ -1,3 +1,4 @@
+#include "sim/hull/hull_mesh.h"
 #include "sim/hull/hydrostatics.h"
 
 #include <catch2/catch.hpp>
@@ -337,6 +338,19 @@ TEST_CASE("a flying hull feels nothing, a sunken one its whole volume, and veloc
   }
 }
 
+TEST_CASE("automatic panels are small enough for the sea, the case's own are taken as they are") {
+  BodySpec body = barge(FroudeKrylov::pressure, kCog);
+  const double automatic = properties_of(build_hull_mesh(body.hull)).longest_edge;
+  CHECK(properties_of(hull_mesh_in(body, *kCalm)).longest_edge == automatic);
+  // Waves of 61.6 m need nothing finer, those of 19.0 m panels of 3.8 m, whose diagonals are sqrt(2) times as long.
+  CHECK(properties_of(hull_mesh_in(body, *regular(0.5, 1.0, 0.0, 0.0))).longest_edge == automatic);
+  const double fine = properties_of(hull_mesh_in(body, *regular(0.5, 1.8, 0.0, 0.0))).longest_edge;
+  CHECK(automatic > 3.81 * std::sqrt(2.0));
+  CHECK(fine <= 3.81 * std::sqrt(2.0));
+  // A ripple of 0.5 m would take hundreds of thousands.
+  CHECK_THROWS_AS(hull_mesh_in(body, *regular(0.05, 11.0, 0.0, 0.0)), SpecificationError);
+}
+
 TEST_CASE("a hull that cannot be built is refused by name") {
   const auto refused = [](const BodySpec& body, std::shared_ptr<const WaveField> waves, const std::string& field) {
     try {
@@ -348,7 +362,9 @@ TEST_CASE("a hull that cannot be built is refused by name") {
   };
   BodySpec body = barge(FroudeKrylov::pressure, kCog);
   CHECK(refused(body, kCalm, "hull") == "");
-  // 1.8 rad/s is 19 m long: shorter than five panels.
+  // 1.8 rad/s is 19 m long: shorter than five panels. Automatic ones are made smaller.
+  CHECK(refused(body, regular(0.5, 1.8, 0.0, 0.0), "hull.panel_length") == "");
+  body.hull.panel_length = 5.0;
   CHECK_THAT(refused(body, regular(0.5, 1.8, 0.0, 0.0), "hull.panel_length"), Contains("do not resolve waves of 19."));
   body.hull.panel_length = 3.0;
   CHECK(refused(body, regular(0.5, 1.8, 0.0, 0.0), "hull.panel_length") == "");

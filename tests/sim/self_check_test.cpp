@@ -142,6 +142,32 @@ TEST_CASE("Haskind's relation holds without a table, by the retardation function
   CHECK(check.passed());
 }
 
+TEST_CASE("every tolerance of a self-check has a key that a refusal names", "[self_check]") {
+  HydrodynamicCoefficients c = crane();
+  for (Complex& x : c.excitation.value) x *= 1.05;  // 10 % more energy than B
+  CHECK_THROWS_WITH(require_self_checks(c), Catch::Contains("allowed 0.08 by panel_method.haskind_tolerance"));
+  SelfCheckTolerances wider;
+  wider.haskind = 0.12;
+  CHECK_NOTHROW(require_self_checks(c, {}, wider));
+  CHECK(check_named(self_checks(c, wider), "haskind").limit == 0.12);
+  // Each is in use: with a tolerance of nothing what it belongs to fails, and names it.
+  const SelfCheckTolerances nothing{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const std::vector<std::pair<const char*, const char*>> keys = {{"kramers_kronig", "kramers_kronig_tolerance"},
+                                                                 {"kernel_tail", "kernel_tail_tolerance"},
+                                                                 {"haskind", "haskind_tolerance"},
+                                                                 {"long_wave_phase", "long_wave_phase_tolerance"},
+                                                                 {"long_wave_heave", "long_wave_heave_tolerance"},
+                                                                 {"symmetry", "symmetry_tolerance"},
+                                                                 {"damping", "negative_damping_tolerance"},
+                                                                 {"kernel_damping", "negative_damping_tolerance"},
+                                                                 {"symmetry_infinite", "symmetry_tolerance"}};
+  for (const auto& [key, tolerance] : keys) {
+    INFO(key);
+    CHECK(check_named(self_checks(c, nothing), key).limit == 0.0);
+    CHECK(check_named(self_checks(c, nothing), key).tolerance_key == tolerance);
+  }
+}
+
 TEST_CASE("a failed check is accepted by its name only", "[self_check]") {
   HydrodynamicCoefficients c = crane();
   for (Complex& x : c.excitation.value) x *= 1.05;

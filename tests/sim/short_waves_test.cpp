@@ -128,17 +128,19 @@ TEST_CASE("a sea that panels would not resolve is refused before they are comput
   const Mesh mesh = box();
   HullAfloat hull{&body, &mesh, 0.0, 0.0, 0.0, 0.1};
   const WaveField sea = jonswap(7.0);
+  SeaSpec water;
+  water.gravity = kGravity;
   PanelMethodSpec method;
-  CHECK_NOTHROW(require_resolved_sea({&hull, 1}, sea, kGravity, method, 0.01));
+  CHECK_NOTHROW(require_resolved_sea({&hull, 1}, sea, water, method, 0.01));
   method.beyond = PanelMethodSpec::Beyond::refuse;
-  CHECK_THROWS_WITH(require_resolved_sea({&hull, 1}, sea, kGravity, method, 0.01),
+  CHECK_THROWS_WITH(require_resolved_sea({&hull, 1}, sea, water, method, 0.01),
                     Catch::Contains("above 2 rad/s") && Catch::Contains("panel_method.beyond"));
   method.beyond = PanelMethodSpec::Beyond::limit;
   method.headings = 4;
-  CHECK_THROWS_WITH(require_resolved_sea({&hull, 1}, sea, kGravity, method, 0.01),
+  CHECK_THROWS_WITH(require_resolved_sea({&hull, 1}, sea, water, method, 0.01),
                     Catch::Contains("between the headings") && Catch::Contains("panel_method.headings"));
   method.beyond = PanelMethodSpec::Beyond::cut;
-  CHECK_NOTHROW(require_resolved_sea({&hull, 1}, sea, kGravity, method, 0.01));
+  CHECK_NOTHROW(require_resolved_sea({&hull, 1}, sea, water, method, 0.01));
 }
 
 }  // namespace stillhook

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/hull/rankine/frequencies.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
@@ -21,8 +22,8 @@ constexpr double kGrowth = 0.25;
 constexpr double kBeachWidth = 1.2;
 // Cells across the gap between two hulls.
 constexpr double kCellsInGap = 5.0;
-// Doublings of cells that may be wasted before they are made to meet the largest size.
-constexpr double kWasted = 0.4;
+// Doublings by which cells at a hull may be larger than asked for, so that by doubling they meet the largest size: 2^0.25.
+constexpr double kCoarser = 0.25;
 // The beach has taken a wave when exp(-kFaded) of its amplitude is left.
 constexpr double kFaded = 2.3;
 
@@ -34,32 +35,25 @@ double automatic_panel(const Layout& layout) {
   return breadth / kPanelsAcross;
 }
 
-std::vector<double> frequencies_of(const PanelMethodOptions& options) {
-  if (!options.chosen.empty()) return options.chosen;
-  std::vector<double> frequencies(options.frequencies);
-  for (int i = 0; i < options.frequencies; ++i)
-    frequencies[i] = options.lowest * std::pow(options.highest / options.lowest, i / (options.frequencies - 1.0));
-  return frequencies;
-}
-
 }  // namespace
 
 void require_options(const PanelMethodOptions& o) {
   const auto bad = [](const char* field, const char* rule) { throw SpecificationError("panel method", field, rule); };
   if (!(o.density > 0.0)) bad("density", "must be > 0");
   if (!(o.gravity > 0.0)) bad("gravity", "must be > 0");
-  if (!(o.lowest > 0.0 && o.highest > o.lowest)) bad("highest", "must be above the lowest frequency, which must be > 0");
+  if (!(o.lowest > 0.0 && (o.highest == 0.0 || o.highest > o.lowest)))
+    bad("highest", "must be above the lowest frequency, which must be > 0");
   for (std::size_t i = 0; i < o.chosen.size(); ++i)
     if (!(o.chosen[i] > 0.0) || (i > 0 && !(o.chosen[i] > o.chosen[i - 1])))
       bad("chosen", "must be ascending frequencies > 0");
-  if (o.frequencies < 4) bad("frequencies", "must be at least 4");
+  if (o.frequencies != 0 && o.frequencies < 4) bad("frequencies", "must be at least 4, or 0");
   if (o.headings != 0 && o.headings < 4) bad("headings", "must be at least 4, or 0");
   if (!(o.gap_damping >= 0.0)) bad("gap_damping", "must be >= 0");
   if (!(o.refinement > 0.0)) bad("refinement", "must be > 0");
 }
 
 std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options) {
-  const std::vector<double> frequencies = frequencies_of(options);
+  const std::vector<double> frequencies = frequencies_of(layout, options);
   const int parts = std::max(
       1, static_cast<int>(std::ceil(std::log(frequencies.back() / frequencies.front()) / std::log(kBandRatio))));
   const double ratio = std::pow(frequencies.back() / frequencies.front(), 1.0 / parts);
@@ -82,12 +76,11 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
     band.far = shortest / kCellsPerWave / options.refinement;
     band.near = std::min(shortest / kCellsAtHull, panel * kPanelsAcross / kCellsAcross) / options.refinement;
     band.width = kBeachWidth * longest;
+    if (layout.gap > 0.0) band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
+    // Cells double outwards: the smallest are made to meet the largest size allowed, or all would stop far below it.
+    const double doublings = std::log2(band.far / band.near);
+    band.near = band.far / std::exp2(std::ceil(doublings - kCoarser));
     if (layout.gap > 0.0) {
-      band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
-      // Cells double outwards: where that would stop far below the largest one allowed, the smallest are made to meet
-      // it.
-      const double doublings = std::log2(band.far / band.near), over = doublings - std::floor(doublings);
-      if (over > kWasted) band.near = band.far / std::exp2(std::ceil(doublings));
       // Two hulls have large surfaces: where the beach has taken the part's shortest waves, cells double once more.
       band.middle = band.far;
       band.far *= 2.0;
@@ -105,7 +98,7 @@ int headings_for(const Layout& layout, const PanelMethodOptions& options) {
   if (options.headings > 0) return options.headings;
   double length = 0.0;
   for (const Placement& p : layout.hulls) length = std::max(length, std::hypot(p.length, p.breadth));
-  const double highest = frequencies_of(options).back();
+  const double highest = frequencies_of(layout, options).back();
   const double k = highest * highest / options.gravity;
   return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "sim/hull/rankine/mesh_symmetry.h"
 #include "sim/specification.h"
 
 namespace stillhook::rankine {
@@ -33,7 +34,11 @@ Placement placed(const PanelHull& hull) {
     sentence << "has no draft: its lowest point is " << -p.draft << " m above the still water";
     throw fault(hull, sentence.str());
   }
-  p.own = is_box(hull) ? Symmetry{true, true} : symmetry_of(p.mesh, 1e-4 * p.length);
+  try {
+    p.own = is_box(hull) ? Symmetry{true, true} : surface_symmetry(p.mesh, hull.waterline);
+  } catch (const MeshError& error) {
+    throw fault(hull, error.what());
+  }
   return p;
 }
 
