@@ -164,7 +164,7 @@ HydrodynamicCoefficients from_body_origins(const HydrodynamicCoefficients& coeff
 }
 
 void complete_retardation(HydrodynamicCoefficients& c, const DatabaseFrame& frame) {
-  if (!c.retardation.empty()) return;
+  if (!c.retardation.empty() || frame.without_retardation) return;
   try {
     c.retardation = retardation_from_damping(c.frequency, frame.retardation);
   } catch (const std::invalid_argument& error) {

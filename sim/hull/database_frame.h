@@ -37,6 +37,7 @@ struct DatabaseFrame {
   double highest = std::numeric_limits<double>::infinity();  // rad/s, higher frequencies are left out
   bool accept_finite_depth = false;         // take a set computed where the longest wave feels the bottom
   RetardationOptions retardation;           // where the database has no retardation functions
+  bool without_retardation = false;         // none are made of B where the database has none
 };
 
 /// Throws SpecificationError(source) unless there are hulls, all their origins at one height, and a length.

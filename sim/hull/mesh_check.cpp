@@ -206,10 +206,11 @@ void check_mesh(const Mesh& mesh, const std::string& what) {
   if (inward < 0) throw MeshError(what + ": the surface has only one side, no choice of normals is consistent");
   check_parts(mesh, edges, what);
   if (inward == all)
-    throw MeshError(what + ": the mesh is inverted, all " + std::to_string(all) + " triangles face inwards");
+    throw MeshError(what + ": the mesh is inverted, all " + std::to_string(all) +
+                    " triangles face inwards; mesh_mend = true turns them");
   if (inward > 0)
     throw MeshError(what + ": the mesh is inverted in parts, " + std::to_string(inward) + " of " + std::to_string(all) +
-                    " triangles face inwards");
+                    " triangles face inwards; mesh_mend = true turns them");
 }
 
 }  // namespace stillhook

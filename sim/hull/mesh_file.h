@@ -8,7 +8,8 @@
 //        files describe only the part of a hull below the still water and are open there: such a mesh is refused as
 //        open, because the waterline moves, unless deck_height closes it with topsides and deck.
 //
-// The type is taken from the extension. Vertices closer than a millionth of the mesh's size are merged.
+// The type is taken from the extension. Vertices closer than a millionth of the mesh's size are merged, and open edges
+// divided where the corners of neighbours lie on them (mesh_seams.h).
 #pragma once
 
 #include <string>
@@ -23,6 +24,7 @@ struct MeshFileOptions {
   RollPitchYaw attitude = {};        // rad, of the file's axes in B
   bool mend = false;                 // mended_mesh of mesh.h before the check
   double deck_height = 0.0;          // m, > 0: decked_mesh of mesh_deck.h before that
+  bool mirror = false;               // the file has one side alone: mirrored at its plane y = 0
 };
 
 /// The mesh of a file in the body frame B (m), merged and checked by check_mesh. Throws MeshError with the file's name

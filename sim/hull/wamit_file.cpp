@@ -8,7 +8,9 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
+#include "sim/hull/infinite_frequency.h"
 #include "sim/hull/wamit_text.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
@@ -22,15 +24,6 @@ constexpr double kSameForce = 1e-2;
 // single precision up to 1e-6, and Mod and Pha of noise need not be those of Re and Im.
 constexpr double kNoForce = 1e-5;
 constexpr int kMostFileModes = 600;
-
-/// The file of that ending as it is on the disk: some systems write endings in capitals.
-std::string wamit_path(const std::string& base, const std::string& ending) {
-  std::string capitals = ending;
-  std::transform(capitals.begin(), capitals.end(), capitals.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
-  if (!std::filesystem::exists(base + ending) && std::filesystem::exists(base + capitals)) return base + capitals;
-  return base + ending;
-}
 
 class WamitReader {
  public:
@@ -51,6 +44,8 @@ class WamitReader {
     return local_[static_cast<std::size_t>(text.mode(row, n, static_cast<int>(local_.size())))];
   }
   void read_radiation(const std::string& path, HydrodynamicCoefficients& c);
+  /// A_inf where the file has none.
+  void complete_infinite(const WamitText& text, HydrodynamicCoefficients& c) const;
   void read_excitation(const std::string& path, HydrodynamicCoefficients& c) const;
   void require_polar(const WamitText& text) const;
   void read_stiffness(const std::string& path, HydrodynamicCoefficients& c) const;
@@ -108,9 +103,6 @@ void WamitReader::read_radiation(const std::string& path, HydrodynamicCoefficien
     if (!fresh) text.fail(row.line, "repeats line " + std::to_string(old->second->line));
     pairs.insert(pair);
   }
-  const int last = text.rows().back().line;
-  if (!given.contains(std::numeric_limits<double>::infinity()))
-    text.fail(last, "there is no added mass at infinite frequency: run the code for it too (PER = 0)");
   for (const auto& [w, rows] : given) {
     MatrixX A = MatrixX::Zero(modes_, modes_), B = A;
     for (const auto& [i, j] : pairs) {
@@ -130,6 +122,19 @@ void WamitReader::read_radiation(const std::string& path, HydrodynamicCoefficien
     else
       c.frequency.push_back({w, A, B});
   }
+  if (!given.contains(std::numeric_limits<double>::infinity())) complete_infinite(text, c);
+}
+
+void WamitReader::complete_infinite(const WamitText& text, HydrodynamicCoefficients& c) const {
+  try {
+    c.A_inf = infinite_added_mass(c.frequency);
+  } catch (const std::invalid_argument& error) {
+    text.fail(text.rows().back().line,
+              std::string("there is no added mass at infinite frequency, and it cannot be computed of the others: ") +
+                  error.what() + "; run the code for it too (PER = 0)");
+  }
+  c.remarks.push_back(text.path() + ": there is no added mass at infinite frequency (PER = 0): it is computed of A and B "
+                                    "by Ogilvie's relation");
 }
 
 void WamitReader::require_polar(const WamitText& text) const {
@@ -247,6 +252,14 @@ HydrodynamicCoefficients WamitReader::read() {
 }
 
 }  // namespace
+
+std::string wamit_path(const std::string& base, const std::string& ending) {
+  std::string capitals = ending;
+  std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  if (!std::filesystem::exists(base + ending) && std::filesystem::exists(base + capitals)) return base + capitals;
+  return base + ending;
+}
 
 HydrodynamicCoefficients read_wamit(const std::string& base, const WamitUnits& units, const DatabaseFrame& frame) {
   return WamitReader(base, units, frame).read();

@@ -37,11 +37,15 @@ struct WamitUnits {
 
 /// Reads <base>.1 and, where they exist, <base>.3 (else <base>.2) and <base>.hst. frame.bodies must give the volumes.
 /// Retardation functions are computed from B. Numbers as Fortran writes them (1.0D+03, 1.234-100) are understood; pairs
-/// that are not listed at any frequency are zero. Throws SpecificationError("<path>:<line>") with the rule broken:
-/// lines cut short, rows that come twice, a frequency that lacks a pair others have, no row of infinite frequency, Mod
+/// that are not listed at any frequency are zero; without a row of infinite frequency the added mass there is computed
+/// (infinite_frequency.h) and remarked on. Throws SpecificationError("<path>:<line>") with the rule broken:
+/// lines cut short, rows that come twice, a frequency that lacks a pair others have, Mod
 /// and Pha that contradict Re and Im (but for forces that are rounding noise beside the largest of the file), modes of
 /// more or fewer hulls than `frame` has. Does not run the self-checks.
 HydrodynamicCoefficients read_wamit(const std::string& base, const WamitUnits& units, const DatabaseFrame& frame);
+
+/// The file with that ending (".1") as it is on the disk: some systems write endings in capitals.
+std::string wamit_path(const std::string& base, const std::string& ending);
 
 /// Writes <base>.1, <base>.3 where the set has an excitation, and <base>.hst where `stiffness` has the restoring
 /// matrix of each hull about its reference point (N/m, N, N m). Retardation functions are left out: the format has
