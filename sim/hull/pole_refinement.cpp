@@ -10,11 +10,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kIterations = 25;
+constexpr int kRefinementSteps = 25;
 constexpr double kStep = 1e-4;          // of the coordinates, for differences
 constexpr double kEnough = 1e-3;        // relative gain of an iteration below which the search ends
 constexpr double kLargestStep = 0.3;    // of a coordinate: poles change by no more than a third at a time
-constexpr double kLeastDamping = 0.02;  // -Re p/|p|, as in vector fitting
+constexpr double kLeastZeta = 0.02;  // -Re p/|p|, as in vector fitting
 
 /// Coordinates in which every value is a stable pole: log |p|, and for a pair log(zeta/(1 - zeta)), zeta = -Re p/|p|.
 VectorX coordinates(const std::vector<Complex>& poles) {
@@ -36,7 +36,7 @@ std::vector<Complex> poles_at(const VectorX& x, const std::vector<Complex>& like
     if (p.imag() == 0.0) {
       poles.push_back({-size, 0.0});
     } else {
-      const double zeta = std::clamp(1.0 / (1.0 + std::exp(-x(n++))), kLeastDamping, 0.9999);
+      const double zeta = std::clamp(1.0 / (1.0 + std::exp(-x(n++))), kLeastZeta, 0.9999);
       poles.push_back(size * Complex(-zeta, std::sqrt(1.0 - zeta * zeta)));
     }
   }
@@ -81,7 +81,7 @@ std::vector<Complex> refine_poles(const std::vector<Complex>& poles, const Trans
   VectorX x = coordinates(poles);
   VectorX r = residual(x);
   double damping = 1e-3;
-  for (int n = 0; n < kIterations; ++n) {
+  for (int n = 0; n < kRefinementSteps; ++n) {
     MatrixX J(r.size(), x.size());
     for (int c = 0; c < x.size(); ++c) {
       VectorX moved = x;
