@@ -175,6 +175,30 @@ std::string certificate_text(const Certificate& c) {
   return text;
 }
 
+std::string certificate_sentence(const Certificate& c) {
+  const std::size_t tried = c.scenarios.size();
+  std::string broken;
+  for (const Certificate::OfLimit& l : c.limits)
+    if (l.broken > 0)
+      broken += fmt::format("{}{} in {} (at most {:.0f} % of such conditions, at 95 % confidence)",
+                            broken.empty() ? "" : "; ", l.metric, l.broken, 100.0 * l.bound);
+  std::string text = fmt::format("In {} fresh conditions that the search has not seen, the plan ", tried);
+  if (c.completed < static_cast<int>(tried))
+    text += fmt::format("runs to its end in {} only; of those it ", c.completed);
+  if (!broken.empty()) return text + "breaks " + broken + ".";
+  return text + fmt::format(
+                    "breaks no limit: with that many, a limit may still be broken in up to {:.0f} % of such "
+                    "conditions, at 95 % confidence.",
+                    100.0 * broken_share_bound(0, c.completed));
+}
+
+bool keeps_hard_limits(const Certificate& c) {
+  return c.completed == static_cast<int>(c.scenarios.size()) &&
+         std::all_of(c.limits.begin(), c.limits.end(), [&](const Certificate::OfLimit& l) {
+           return !l.hard || l.broken <= l.allowed * static_cast<double>(c.scenarios.size());
+         });
+}
+
 CertificateSummary certificate_summary(const Certificate& c) {
   const auto mean = [](const SampleSummary& s) { return MeanSummary{s.mean, s.mean_low, s.mean_high}; };
   CertificateSummary summary;

@@ -52,6 +52,12 @@ Certificate certify(const Evaluator& evaluator, const Eigen::VectorXd& x, const 
 /// A few lines for the screen.
 std::string certificate_text(const Certificate& certificate);
 
+/// For the first screen of a report: in how many conditions which limits are broken.
+std::string certificate_sentence(const Certificate& certificate);
+
+/// All runs of the plan completed, and every hard limit broken in no larger share of them than its case allows.
+bool keeps_hard_limits(const Certificate& certificate);
+
 CertificateSummary certificate_summary(const Certificate& certificate);
 
 /// What a report says of it.

@@ -91,8 +91,9 @@ std::string spectrum_plot(const RecordFit& record, const ChannelFit& c) {
   const std::string unit = shown_unit(c.unit).name;
   plot.title = record.name + ": spectrum of the residuals of " + c.channel;
   plot.x_label = "frequency, rad/s";
+  plot.periods = true;
   plot.y_label = "(" + unit + ")² s/rad";
-  plot.height = 170.0;
+  plot.height = 190.0;
   return figure(plot);
 }
 
@@ -180,7 +181,8 @@ std::string head(const Identification& result) {
 
 }  // namespace
 
-std::string fit_report(const Case& c, const Identification& result, const std::vector<std::string>& files) {
+std::string fit_report(const Case& c, const Identification& result, const std::vector<std::string>& files,
+                       const DocumentControl& control) {
   ReportPage page;
   const auto table_section = [&page](const std::string& id, ReportTable table, int numeric_from, const std::string& more) {
     if (table.rows.empty()) return;
@@ -202,7 +204,7 @@ std::string fit_report(const Case& c, const Identification& result, const std::v
   page.section("case", "Case as resolved",
                "<details><summary>Show the case file</summary><pre tabindex=\"0\">" + escape_html(c.resolved) +
                    "</pre></details>");
-  return page.html("Fit of " + (c.title.empty() ? c.name : c.title), "", head(result), c.name);
+  return page.html("Fit of " + (c.title.empty() ? c.name : c.title), "", head(result), c.name, control);
 }
 
 }  // namespace stillhook

@@ -19,9 +19,11 @@ ReportTable cross_table(const Identification& result);
 std::string verdict_of(const Identification& result);
 
 /// report.html. `files`: written beside it.
-std::string fit_report(const Case& c, const Identification& result, const std::vector<std::string>& files);
+std::string fit_report(const Case& c, const Identification& result, const std::vector<std::string>& files,
+                       const DocumentControl& control = {});
 
 /// summary.json.
-std::string fit_summary(const Case& c, const Identification& result, const std::vector<std::string>& files);
+std::string fit_summary(const Case& c, const Identification& result, const std::vector<std::string>& files,
+                        const std::string& date = "");
 
 }  // namespace stillhook

@@ -41,10 +41,12 @@ Json record_json(const RecordFit& record) {
 
 }  // namespace
 
-std::string fit_summary(const Case& c, const Identification& result, const std::vector<std::string>& files) {
+std::string fit_summary(const Case& c, const Identification& result, const std::vector<std::string>& files,
+                        const std::string& date) {
   Json document;
   document["schema_version"] = Summary::kSchemaVersion;
   document["program"] = std::string("stillhook ") + kVersion;
+  document["date"] = date;
   document["case"] = c.name;
   document["verb"] = "fit";
   document["status"] = result.interrupted ? "interrupted" : result.usable ? "completed" : "diverged";

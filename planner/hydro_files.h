@@ -28,6 +28,7 @@ std::vector<std::string> write_coefficient_files(const std::string& folder, cons
                                                  std::vector<std::string>& left_out);
 
 /// summary.json of the verb, see docs/hydrodynamics.md.
-std::string hydro_summary(const Case& c, const HydroResult& result, const std::vector<std::string>& files);
+std::string hydro_summary(const Case& c, const HydroResult& result, const std::vector<std::string>& files,
+                          const std::string& date = "");
 
 }  // namespace stillhook

@@ -15,6 +15,7 @@ namespace stillhook {
 namespace {
 
 constexpr double kNegligible = 1e-4;  // of the largest mode of its kind: not plotted
+constexpr double kStillMotion = 1e-4, kStillTurn = 2e-5;  // m/m and rad/m (0.001 deg/m): a motion that is nothing
 constexpr int kModelSamples = 160;
 constexpr double kKernelEnd = 25.0;  // s, plotted at most
 
@@ -40,6 +41,7 @@ Plot empty_plot(const std::string& title, const std::string& y_label, const std:
   plot.title = title;
   plot.y_label = y_label;
   plot.x_label = x_label;
+  plot.periods = x_label.starts_with("ω");
   plot.width = 520.0;
   plot.height = 270.0;
   return plot;
@@ -153,6 +155,29 @@ std::vector<int> excited_modes(const ExcitationTable& X) {
   return modes;
 }
 
+/// Amplitude of one motion by heading, and its lag behind the crest that passes the body.
+std::array<Plot, 2> response_pair(const ResponseCurves& curves, const BodyResponse& body, int i, const char* name,
+                                  double largest) {
+  std::array<Plot, 2> plots{
+      empty_plot(fmt::format("{} of {}", name, readable_name(body.name)), i < 3 ? "m/m" : "deg/m", "ω, rad/s"),
+      empty_plot("Its lag behind the crest", "deg", "ω, rad/s")};
+  for (std::size_t h = 0; h < curves.headings.size(); ++h) {
+    PlotLine amplitude{fmt::format("{:.0f}°", curves.headings[h] / kDegree), curves.frequencies, {}}, lag = amplitude;
+    double before = 0.0;
+    for (const ResponseAmplitude::Vector6c& value : body.value[h]) {
+      amplitude.value.push_back(std::abs(value[i]) / (i < 3 ? 1.0 : kDegree));
+      const double now = std::arg(value[i]) / kDegree;
+      // The line is broken where it jumps through 180 deg, and where nothing moves.
+      const bool shown = std::abs(value[i]) > kNegligible * largest && std::abs(now - before) <= 180.0;
+      lag.value.push_back(shown ? now : kNaN);
+      before = now;
+    }
+    plots[0].lines.push_back(std::move(amplitude));
+    plots[1].lines.push_back(std::move(lag));
+  }
+  return plots;
+}
+
 }  // namespace
 
 std::string coefficient_plots(const HydroSet& set) {
@@ -182,23 +207,23 @@ std::string coefficient_plots(const HydroSet& set) {
 }
 
 std::string response_plots(const ResponseCurves& curves) {
-  static constexpr std::array<std::pair<int, const char*>, 4> kShown = {
-      {{0, "Surge"}, {2, "Heave"}, {3, "Roll"}, {4, "Pitch"}}};
+  static constexpr std::array<const char*, 6> kNames = {"Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"};
   std::string out;
   for (const BodyResponse& body : curves.bodies) {
     std::vector<Plot> plots;
-    for (const auto& [i, name] : kShown) {
-      Plot plot =
-          empty_plot(fmt::format("{} of {}", name, readable_name(body.name)), i < 3 ? "m/m" : "deg/m", "ω, rad/s");
-      for (std::size_t h = 0; h < curves.headings.size(); ++h) {
-        PlotLine line{fmt::format("{:.0f}°", curves.headings[h] / kDegree), curves.frequencies, {}};
-        for (const ResponseAmplitude::Vector6c& value : body.value[h])
-          line.value.push_back(std::abs(value[i]) / (i < 3 ? 1.0 : kDegree));
-        plot.lines.push_back(std::move(line));
-      }
-      plots.push_back(std::move(plot));
+    std::string still;
+    for (int i = 0; i < 6; ++i) {
+      double largest = 0.0;
+      for (const auto& heading : body.value)
+        for (const ResponseAmplitude::Vector6c& value : heading)
+          if (std::isfinite(std::abs(value[i]))) largest = std::max(largest, std::abs(value[i]));
+      if (largest > (i < 3 ? kStillMotion : kStillTurn))
+        for (Plot& plot : response_pair(curves, body, i, kNames[i], largest)) plots.push_back(std::move(plot));
+      else
+        still += (still.empty() ? "" : ", ") + std::string(kNames[i]);
     }
     out += "<h3>" + escape_html(readable_name(body.name)) + "</h3>" + grid(plots);
+    if (!still.empty()) out += "<p><small>Not drawn, because next to nothing moves: " + still + ".</small></p>";
   }
   return out;
 }

@@ -80,7 +80,8 @@ std::string files_html(const std::vector<std::string>& files) {
 
 }  // namespace
 
-std::string hydro_report(const Case& c, const HydroResult& result, const std::vector<std::string>& files) {
+std::string hydro_report(const Case& c, const HydroResult& result, const std::vector<std::string>& files,
+                         const DocumentControl& control) {
   ReportPage page;
   if (!result.responses.frequencies.empty())
     page.section(
@@ -97,7 +98,7 @@ std::string hydro_report(const Case& c, const HydroResult& result, const std::ve
             set_html(result, k));
   page.section("files", "Files", files_html(files));
 
-  return page.html("Hydrodynamics of " + (c.title.empty() ? c.name : c.title), kStyle, head(result), c.name);
+  return page.html("Hydrodynamics of " + (c.title.empty() ? c.name : c.title), kStyle, head(result), c.name, control);
 }
 
 }  // namespace stillhook

@@ -107,10 +107,12 @@ Json periods_json(const std::vector<ReportTable>& tables) {
 
 }  // namespace
 
-std::string hydro_summary(const Case& c, const HydroResult& result, const std::vector<std::string>& files) {
+std::string hydro_summary(const Case& c, const HydroResult& result, const std::vector<std::string>& files,
+                          const std::string& date) {
   Json document;
   document["schema_version"] = Summary::kSchemaVersion;
   document["program"] = std::string("stillhook ") + kVersion;
+  document["date"] = date;
   document["case"] = c.name;
   document["verb"] = "hydro";
   document["status"] = "completed";

@@ -30,6 +30,17 @@ std::vector<int> spread(int n, int wanted) {
   return chosen;
 }
 
+/// The period of a frequency, s; "-" at zero.
+std::string period_text(double frequency) {
+  return frequency > 0.0 ? cell(2.0 * std::numbers::pi / frequency, 1) : "-";
+}
+
+/// "31.4 to 3.1 s" of a band in rad/s.
+std::string periods_text(double lowest, double highest) {
+  return lowest > 0.0 ? fmt::format("{} to {} s", period_text(lowest), period_text(highest))
+                      : fmt::format("from {} s", period_text(highest));
+}
+
 ReportTable diagonal_table(const HydroSet& set, int hull, bool added_mass) {
   const HydrodynamicCoefficients& c = *set.set;
   ReportTable table;
@@ -66,7 +77,9 @@ ReportTable pair_table(const HydroSet& set, const std::vector<std::pair<int, int
     if (f.frequency > 0.0) positive.push_back(&f);
   for (const int k : spread(static_cast<int>(positive.size()), kSampled)) at.push_back(positive[k]);
   table.header.push_back("unit");
-  for (const FrequencyCoefficients* f : at) table.header.push_back(cell(f->frequency, 2) + " rad/s");
+  for (const FrequencyCoefficients* f : at)
+    table.header.push_back(
+        fmt::format("{} rad/s ({} s)", cell(f->frequency, 2), cell(2.0 * std::numbers::pi / f->frequency, 1)));
   table.header.push_back("infinite");
   for (const auto& [i, j] : pairs)
     for (const bool added_mass : {true, false}) {
@@ -87,14 +100,14 @@ ReportTable excitation_table(const HydroSet& set, int hull, int heading) {
   table.title =
       fmt::format("Excitation of {} by waves towards {:.0f} deg", set.names[hull], X.headings[heading] / kDegree);
   table.note = "Amplitude per metre of wave and lag behind the crest at the reference point, deg.";
-  table.header = {"rad/s"};
+  table.header = {"rad/s", "period s"};
   for (int i = 0; i < 6; ++i) {
     static constexpr std::array<const char*, 6> kNames = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
     table.header.push_back(std::string(kNames[i]) + " " + excitation_unit(i).name);
     table.header.push_back("deg");
   }
   for (const int f : spread(static_cast<int>(X.frequencies.size()), kExcitationRows)) {
-    std::vector<std::string> row = {cell(X.frequencies[f], 3)};
+    std::vector<std::string> row = {cell(X.frequencies[f], 3), cell(2.0 * std::numbers::pi / X.frequencies[f], 2)};
     double largest[2] = {0.0, 0.0};
     for (int i = 0; i < 6; ++i) largest[i / 3] = std::max(largest[i / 3], std::abs(X.at(f, heading, 6 * hull + i)));
     for (int i = 0; i < 6; ++i) {
@@ -195,10 +208,12 @@ ReportTable fit_table(const HydroSet& set) {
   }
   const StateSpaceReport& report = set.fit->report;
   table.note = fmt::format(
-      "Fitted to {} over {:.2f} to {:.2f} rad/s with a tolerance of {:.1f} %: {} states. A passivity margin >= 0 means "
+      "Fitted to {} over {:.2f} to {:.2f} rad/s (periods {}) with a tolerance of {:.1f} %: {} states. A passivity "
+      "margin >= 0 means "
       "that the model never gives energy away.",
-      report.data, report.lowest, report.highest, 100.0 * report.tolerance, report.states);
-  table.header = {"modes", "order", "worst R2", "passivity margin", "at rad/s", "enforced"};
+      report.data, report.lowest, report.highest, periods_text(report.lowest, report.highest), 100.0 * report.tolerance,
+      report.states);
+  table.header = {"modes", "order", "worst R2", "passivity margin", "at rad/s", "period s", "enforced"};
   for (const StateSpaceBlockReport& block : report.blocks) {
     std::string modes;
     for (const int mode : block.modes) modes += (modes.empty() ? "" : ", ") + set.mode_name(mode);
@@ -208,7 +223,7 @@ ReportTable fit_table(const HydroSet& set) {
         worst = std::min(worst, pair.r_squared);
     table.rows.push_back({modes, std::to_string(block.order), fmt::format("{:.5f}", worst),
                           fmt::format("{:.2g}", block.passivity_margin), fmt::format("{:.2f}", block.margin_frequency),
-                          block.passivity_enforced ? "yes" : "no"});
+                          period_text(block.margin_frequency), block.passivity_enforced ? "yes" : "no"});
   }
   return table;
 }
@@ -217,11 +232,14 @@ ReportTable panel_table(const HydroSet& set) {
   ReportTable table;
   table.title = "Panels of " + set.title();
   table.note = "Each part of the band has a water surface of its own; panels are those that symmetry leaves.";
-  table.header = {"band rad/s", "frequencies", "hull panels", "surface panels", "symmetry classes", "memory MB"};
+  table.header = {"band rad/s",     "periods s",        "frequencies", "hull panels",
+                  "surface panels", "symmetry classes", "memory MB"};
   for (const PanelBand& band : set.bands)
-    table.rows.push_back({fmt::format("{:.2f} to {:.2f}", band.from, band.to), std::to_string(band.frequencies.size()),
-                          std::to_string(band.hull_panels), std::to_string(band.surface_panels),
-                          std::to_string(band.classes), cell(band.bytes / 1e6, 0)});
+    table.rows.push_back({fmt::format("{:.2f} to {:.2f}", band.from, band.to),
+                          fmt::format("{} to {}", period_text(band.from), period_text(band.to)),
+                          std::to_string(band.frequencies.size()), std::to_string(band.hull_panels),
+                          std::to_string(band.surface_panels), std::to_string(band.classes),
+                          cell(band.bytes / 1e6, 0)});
   return table;
 }
 

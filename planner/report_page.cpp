@@ -15,12 +15,12 @@ void ReportPage::section(const std::string& id, const std::string& title, const 
 }
 
 std::string ReportPage::html(const std::string& title, const std::string& style, const std::string& head,
-                             const std::string& foot) const {
+                             const std::string& foot, const DocumentControl& control) const {
   return fmt::format(
-      "{}<body><header><h1>{}</h1>{}</header>\n<main><nav aria-label=\"Contents\">{}</nav>{}</main>\n"
+      "{}<body><header><h1>{}</h1>{}{}</header>\n<main><nav aria-label=\"Contents\">{}</nav>{}</main>\n"
       "<footer>stillhook {} · {}</footer></body></html>\n",
-      page_head(escape_html(title), kVersion, false, style), escape_html(title), head, nav_, body_, kVersion,
-      escape_html(foot));
+      page_head(escape_html(title), kVersion, false, style + control_style(control, title, kVersion)),
+      escape_html(title), control_html(control, kVersion), head, nav_, body_, kVersion, escape_html(foot));
 }
 
 std::string warnings_html(const std::vector<std::string>& warnings) {

@@ -42,6 +42,7 @@ Summary summary_of(const RunResult& run, const Case& c, const std::string& verb)
   summary.verb = verb;
   summary.sea = run.specification.sea.active;
   summary.program_version = kVersion;
+  summary.date = run.date;
   summary.warnings = run.warnings;
   return summary;
 }

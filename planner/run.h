@@ -20,6 +20,7 @@ struct RunResult {
   Metrics metrics;
   std::vector<LimitCheck> limits;
   std::vector<std::string> warnings;  // as PreparedRun's
+  std::string date;                   // when it was made, as date_now(); empty = not known
 
   /// Completed and no hard limit violated.
   bool passed() const { return within_limits(metrics, limits); }

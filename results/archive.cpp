@@ -51,10 +51,10 @@ void write_contacts(NetcdfFile& file, const Trajectory& run) {
   if (run.contacts.empty()) return;
   const int event = file.define_dimension("contact_event", run.contacts.size());
   const int vector = file.define_dimension("vector", 3);
-  file.put(file.define("contact_event_name", NC_STRING, {event}, "name of the contact"),
-           collect(run.contacts, [](auto& c) { return c.contact; }));
-  file.put(file.define("contact_event_phase", NC_STRING, {event}, "phase of the first touch"),
-           collect(run.contacts, [](auto& c) { return c.phase; }));
+  file.put_texts("contact_event_name", event, "name of the contact",
+                 collect(run.contacts, [](auto& c) { return c.contact; }));
+  file.put_texts("contact_event_phase", event, "phase of the first touch",
+                 collect(run.contacts, [](auto& c) { return c.phase; }));
   const int role = file.define("contact_event_role", NC_INT, {event}, kContactRoleName);
   describe_roles(file, role);
   file.put(role, collect(run.contacts, [](auto& c) { return static_cast<int>(c.role); }));

@@ -7,8 +7,10 @@
 // `contact_event`: contact_*. Extremes over every step: extreme_min, extreme_max, extreme_time_of_min,
 // extreme_time_of_max (operation_phase, channel). Static poses: static_pose_*. Status and cost: global attributes.
 // Numbers are stored losslessly (float64, shuffle, deflate): what is read back is bit for bit what was written, and the
-// same run gives the same file. Compressed variables have checksums (Fletcher 32), and the finished file a seal at its end over
-// all of it (sealed_file.h), so that a damaged one is refused before the HDF5 library can trip over it. How the file looks while a run goes on: archive_stream.h.
+// same run gives the same file. Texts are characters of fixed length (dimensions *_length), which need nothing of the
+// file's heap. Compressed variables have checksums (Fletcher 32), and the finished file a seal at its end over
+// all of it (sealed_file.h), so that a damaged one is refused before the HDF5 library can trip over it. How the file
+// looks while a run goes on: archive_stream.h.
 #pragma once
 
 #include <string>

@@ -64,8 +64,7 @@ void write_title(NetcdfFile& file, const ArchiveTitle& title, const std::string&
 void write_channel_table(NetcdfFile& file, const std::vector<Channel>& channels) {
   const int channel = file.define_dimension("channel", channels.size());
   const auto write = [&](const char* name, const char* long_name, std::string Channel::*field) {
-    file.put(file.define(name, NC_STRING, {channel}, long_name),
-             collect(channels, [&](const Channel& c) { return c.*field; }));
+    file.put_texts(name, channel, long_name, collect(channels, [&](const Channel& c) { return c.*field; }));
   };
   write("channel_name", "name of the channel", &Channel::name);
   write("channel_unit", "unit of the channel", &Channel::unit);
@@ -107,8 +106,7 @@ PhaseVariables define_phases(NetcdfFile& file, const std::vector<PhaseRecord>& p
   file.attribute(stage, "flag_values", std::vector<int>{0, 1, 2, 3, 4});
   file.attribute(stage, "flag_meanings", "on_barge transfer hanging set_down landed");
   file.put(stage, collect(phases, [](auto& p) { return static_cast<int>(p.stage); }));
-  file.put(file.define("phase_name", NC_STRING, {phase}, "name of the phase"),
-           collect(phases, [](auto& p) { return p.name; }));
+  file.put_texts("phase_name", phase, "name of the phase", collect(phases, [](auto& p) { return p.name; }));
   return variables;
 }
 
@@ -126,9 +124,8 @@ void describe_roles(NetcdfFile& file, int variable) {
 void write_static_poses(NetcdfFile& file, const std::vector<StaticPose>& poses) {
   if (poses.empty()) return;
   const int pose = file.define_dimension("static_pose", poses.size());
-  file.put(file.define("static_pose_name", NC_STRING, {pose},
-                       "static equilibrium: of the start, then of the end of each phase"),
-           collect(poses, [](auto& p) { return p.name; }));
+  file.put_texts("static_pose_name", pose, "static equilibrium: of the start, then of the end of each phase",
+                 collect(poses, [](auto& p) { return p.name; }));
   std::size_t bodies = 0, drives = 0;
   std::set<std::string> keys;
   for (const StaticPose& p : poses) {
@@ -161,8 +158,7 @@ void write_static_poses(NetcdfFile& file, const std::vector<StaticPose>& poses) 
       present.push_back(found != p.values.end());
       values.push_back(found != p.values.end() ? found->second : kNaN);
     }
-  file.put(file.define("static_value_name", NC_STRING, {value}, "channel that has a value at rest"),
-           std::vector<std::string>(keys.begin(), keys.end()));
+  file.put_texts("static_value_name", value, "channel that has a value at rest", {keys.begin(), keys.end()});
   const int table = file.define("static_pose_value", NC_DOUBLE, {pose, value},
                                 "value of a channel at rest, in its unit", "", NetcdfFile::Storage::compressed);
   file.put(table, values);

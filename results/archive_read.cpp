@@ -51,8 +51,8 @@ class FileSamples : public SampleSource {
 void read_channels(const std::shared_ptr<const NetcdfFile>& file, Trajectory& run, std::size_t samples) {
   const std::size_t count = file->size("channel");
   if (count == 0) return;
-  const auto names = file->strings("channel_name", count), units = file->strings("channel_unit", count),
-             descriptions = file->strings("channel_description", count);
+  const auto names = file->texts("channel_name", count), units = file->texts("channel_unit", count),
+             descriptions = file->texts("channel_description", count);
   for (std::size_t c = 0; c < count; ++c) run.channels.push_back({names[c], units[c], descriptions[c]});
   if (samples == 0) return;
   run.time = file->first_doubles(file->find("time"), samples);
@@ -62,7 +62,7 @@ void read_channels(const std::shared_ptr<const NetcdfFile>& file, Trajectory& ru
 void read_phases(const NetcdfFile& file, Trajectory& run) {
   const std::size_t count = file.size("operation_phase"), channels = run.channels.size();
   if (count == 0) return;
-  const auto names = file.strings("phase_name", count);
+  const auto names = file.texts("phase_name", count);
   const auto stages = file.integers("phase_stage", count), timeouts = file.integers("phase_event_timed_out", count);
   const auto starts = file.doubles("phase_start", count), ends = file.doubles("phase_end", count);
   for (std::size_t p = 0; p < count; ++p)
@@ -81,7 +81,7 @@ void read_phases(const NetcdfFile& file, Trajectory& run) {
 void read_contacts(const NetcdfFile& file, Trajectory& run) {
   const std::size_t count = file.size("contact_event");
   if (count == 0) return;
-  const auto names = file.strings("contact_event_name", count), phases = file.strings("contact_event_phase", count);
+  const auto names = file.texts("contact_event_name", count), phases = file.texts("contact_event_phase", count);
   const auto roles = file.integers("contact_event_role", count);
   const auto starts = file.doubles("contact_event_start", count), ends = file.doubles("contact_event_end", count),
              speeds = file.doubles("contact_event_approach_speed", count),
@@ -161,7 +161,7 @@ void read_pose_bodies(const NetcdfFile& file, Trajectory& run, const std::vector
 void read_static_poses(const NetcdfFile& file, Trajectory& run) {
   const std::size_t count = file.size("static_pose"), drives = file.size("drive"), keys = file.size("static_value");
   if (count == 0) return;
-  for (const std::string& name : file.strings("static_pose_name", count)) run.static_poses.emplace_back().name = name;
+  for (const std::string& name : file.texts("static_pose_name", count)) run.static_poses.emplace_back().name = name;
   read_pose_bodies(file, run, file.integers("static_pose_bodies", count));
   const auto drive_counts = file.integers("static_pose_drives", count);
   if (drives > 0) {
@@ -171,7 +171,7 @@ void read_static_poses(const NetcdfFile& file, Trajectory& run) {
         run.static_poses[p].drives.push_back(position[p * drives + d]);
   }
   if (keys == 0) return;
-  const auto names = file.strings("static_value_name", keys);
+  const auto names = file.texts("static_value_name", keys);
   const auto values = file.doubles("static_pose_value", count * keys);
   const auto present = file.integers("static_pose_value_present", count * keys);
   for (std::size_t p = 0; p < count; ++p)

@@ -51,6 +51,8 @@ void write_judgement(const Judgement& judgement, const std::string& path) {
   document["tables"] = Json::array();
   for (const ReportTable& table : judgement.tables) document["tables"].push_back(json_of(table));
   document["sensitivities"] = judgement.sensitivities ? json_of(*judgement.sensitivities) : Json(nullptr);
+  document["certificate"] = judgement.certificate;
+  document["certificate_kept"] = judgement.certificate_kept;
   write_file(path, document.dump(2) + "\n");
 }
 
@@ -62,6 +64,8 @@ Judgement read_judgement(const std::string& path) {
     Judgement judgement;
     for (const Json& table : document.at("tables")) judgement.tables.push_back(table_in(table));
     if (const Json& s = document.at("sensitivities"); !s.is_null()) judgement.sensitivities = sensitivities_in(s);
+    judgement.certificate = document.value("certificate", std::string());  // older ones have none
+    judgement.certificate_kept = document.value("certificate_kept", true);
     return judgement;
   } catch (const Json::exception& error) {
     throw FileError(path + ": is no judgement of a plan: " + error.what());

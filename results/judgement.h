@@ -13,6 +13,8 @@ namespace stillhook {
 struct Judgement {
   std::vector<ReportTable> tables;
   std::optional<SensitivityTable> sensitivities;
+  std::string certificate;  // as SearchSection has it
+  bool certificate_kept = true;
 
   bool empty() const { return tables.empty() && !sensitivities; }
 };

@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -104,10 +105,19 @@ void NetcdfFile::put(int variable, const std::vector<int>& values) {
   check(nc_put_var_int(id_, variable, values.data()), "cannot be written");
 }
 
-void NetcdfFile::put(int variable, const std::vector<std::string>& values) {
-  std::vector<const char*> pointers;
-  for (const std::string& value : values) pointers.push_back(value.c_str());
-  check(nc_put_var_string(id_, variable, pointers.data()), "cannot be written");
+void NetcdfFile::put_texts(const std::string& name, int dimension, const std::string& long_name,
+                           const std::vector<std::string>& values) {
+  std::size_t length = 1;
+  for (const std::string& value : values) length = std::max(length, value.size());
+  const int characters = define_dimension(name + "_length", length);
+  const int variable = define(name, NC_CHAR, {dimension, characters}, long_name, "", Storage::compressed);
+  attribute(variable, "_Encoding", "utf-8");
+  std::string padded;
+  for (const std::string& value : values) {
+    padded += value;
+    padded.append(length - value.size(), '\0');
+  }
+  check(nc_put_var_text(id_, variable, padded.data()), "cannot be written");
 }
 
 void NetcdfFile::rows(int variable, std::size_t first, std::size_t count, std::vector<std::size_t>& start,
@@ -213,11 +223,31 @@ std::vector<int> NetcdfFile::integers(const std::string& variable, std::size_t c
   return values;
 }
 
-std::vector<std::string> NetcdfFile::strings(const std::string& variable, std::size_t count) const {
+std::vector<std::string> NetcdfFile::texts(const std::string& variable, std::size_t count) const {
   const int id = find(variable);
-  check_count(id, variable, count);
+  nc_type type = NC_NAT;
+  check(nc_inq_vartype(id_, id, &type), "variable " + variable);
+  if (type == NC_STRING) {
+    check_count(id, variable, count);
+    return texts_of_variable_length(id, count);
+  }
+  const std::vector<std::size_t> lengths = shape(id, variable);
+  if (type != NC_CHAR || lengths.size() != 2 || lengths[0] != count)
+    check(NC_EEDGE, "variable " + variable + " does not hold the texts that are expected");
+  const std::size_t length = lengths[1];
+  std::string padded(count * length, '\0');
+  check(nc_get_var_text(id_, id, padded.data()), "variable " + variable);
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    values.push_back(padded.substr(i * length, length));
+    values.back().erase(std::min(values.back().find('\0'), length));
+  }
+  return values;
+}
+
+std::vector<std::string> NetcdfFile::texts_of_variable_length(int variable, std::size_t count) const {
   std::vector<char*> pointers(count, nullptr);
-  check(nc_get_var_string(id_, id, pointers.data()), "variable " + variable);
+  check(nc_get_var_string(id_, variable, pointers.data()), "texts");
   std::vector<std::string> values;
   for (const char* p : pointers) values.emplace_back(p ? p : "");
   nc_free_string(count, pointers.data());

@@ -41,7 +41,11 @@ class NetcdfFile {
   void attribute(int variable, const std::string& name, const std::vector<int>& values);
   void put(int variable, const std::vector<double>& values);
   void put(int variable, const std::vector<int>& values);
-  void put(int variable, const std::vector<std::string>& values);
+  /// Defines and writes a variable of texts over one dimension: characters in a second dimension, `name`_length, as
+  /// long as the longest, filled up with zeros. Texts of variable length would stand on a heap of HDF5's that no
+  /// checksum guards, and a damaged one ends the program that reads it.
+  void put_texts(const std::string& name, int dimension, const std::string& long_name,
+                 const std::vector<std::string>& values);
   /// `count` rows of a variable from row `first` on.
   void put_rows(int variable, std::size_t first, std::size_t count, const double* values);
   void put_rows(int variable, std::size_t first, std::size_t count, const int* values);
@@ -54,11 +58,13 @@ class NetcdfFile {
   double number(int variable, const std::string& name) const;
   std::vector<double> doubles(const std::string& variable, std::size_t count) const;
   std::vector<int> integers(const std::string& variable, std::size_t count) const;
-  std::vector<std::string> strings(const std::string& variable, std::size_t count) const;
+  /// Texts as put_texts() writes them, or of variable length, as older files have them.
+  std::vector<std::string> texts(const std::string& variable, std::size_t count) const;
   /// The first `count` of a variable with one dimension.
   std::vector<double> first_doubles(int variable, std::size_t count) const;
 
  private:
+  std::vector<std::string> texts_of_variable_length(int variable, std::size_t count) const;
   std::vector<std::size_t> shape(int variable, const std::string& name) const;
   void lay_out(int variable, nc_type type, Storage storage);
   void check_count(int variable, const std::string& name, std::size_t count) const;

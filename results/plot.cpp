@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "results/html.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#00805c", "#aa4499", "#806000", "#404040"};
 constexpr double kFont = 12.0;
 constexpr double kMarginLeft = 62.0, kMarginRight = 14.0, kMarginBottom = 40.0, kPhaseStrip = 17.0;
+constexpr double kPeriodRow = 13.0, kAxisTitle = 28.0;
 constexpr double kLegendRow = 18.0, kTitleRow = 24.0;
 constexpr int kPointBudget = 4800;  // of all lines together: about 35 kB of path
 
@@ -49,6 +51,25 @@ std::string tick_label(double value, double step) {
   for (double scaled = step; decimals < 6 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled; scaled *= 10.0)
     ++decimals;
   return fixed_number(value, decimals);
+}
+
+/// Values that would need many digits are shown in thousands of thousands, or parts of them: the factor, and how the
+/// axis names it.
+std::pair<double, std::string> power_of(const std::vector<double>& ticks) {
+  static constexpr std::array<std::pair<double, const char*>, 8> kPowers = {{{1e-12, "10⁻¹²"},
+                                                                             {1e-9, "10⁻⁹"},
+                                                                             {1e-6, "10⁻⁶"},
+                                                                             {1e-3, "10⁻³"},
+                                                                             {1e3, "10³"},
+                                                                             {1e6, "10⁶"},
+                                                                             {1e9, "10⁹"},
+                                                                             {1e12, "10¹²"}}};
+  const double largest = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
+  if (largest == 0.0 || (largest > 5e-3 && largest < 1e6)) return {1.0, ""};
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < kPowers.size(); ++i)
+    if (kPowers[i].first <= largest) best = i;
+  return {kPowers[best].first, std::string(" (in ") + kPowers[best].second + ")"};
 }
 
 std::pair<double, double> data_range(const Plot& plot) {
@@ -135,22 +156,27 @@ std::string draw_phases(const Plot& plot, const Axes& f) {
 std::string draw_axes(const Plot& plot, const Axes& f, const std::vector<double>& y_ticks,
                       const std::vector<double>& x_ticks) {
   std::string out;
-  const double y_step = y_ticks[1] - y_ticks[0], x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
+  const auto [power, power_name] = power_of(y_ticks);
+  const double y_step = (y_ticks[1] - y_ticks[0]) / power, x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
   for (double v : y_ticks) {
     out += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#d4dae0\" stroke-width=\".7\"/>", f.left, f.y(v),
                        f.right);
-    out += text(f.left - 7.0, f.y(v) + 4.0, "end", tick_label(v, y_step));
+    out += text(f.left - 7.0, f.y(v) + 4.0, "end", tick_label(v / power, y_step));
   }
   for (double v : x_ticks) {
     if (v < f.x.low - 1e-9 || v > f.x.high + 1e-9) continue;
     out += fmt::format("<path d=\"M{:.1f} {:.1f}v4\" stroke=\"#3d4852\"/>", f.x(v), f.bottom);
     out += text(f.x(v), f.bottom + 16.0, "middle", tick_label(v, x_step));
+    if (plot.periods && v > 0.0)
+      out += text(f.x(v), f.bottom + 16.0 + kPeriodRow, "middle", readable_number(2.0 * std::numbers::pi / v, 3) + " s",
+                  " font-size=\"10.5\" fill=\"#4a5560\"");
   }
   out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#3d4852\"/>", f.left, f.top,
                      f.bottom, f.right);
-  out += text(0.5 * (f.left + f.right), f.bottom + 33.0, "middle", plot.x_label);
+  out += text(0.5 * (f.left + f.right), f.bottom + 33.0 + (plot.periods ? kPeriodRow : 0.0), "middle",
+              plot.periods ? plot.x_label + ", with the period" : plot.x_label);
   out += fmt::format("<text transform=\"translate(13 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                     0.5 * (f.top + f.bottom), escape_html(plot.y_label));
+                     0.5 * (f.top + f.bottom), escape_html(plot.y_label + power_name));
   return out;
 }
 
@@ -309,12 +335,17 @@ std::vector<std::pair<double, double>> thin_out(const PlotLine& line, double low
 std::string draw_plot(const Plot& plot) {
   const std::vector<double> y_ticks = value_ticks(plot);
   const auto [t0, t1] = time_range(plot);
-  Axes f{kMarginLeft, plot.width - kMarginRight, 0.0, 0.0, {}, {}};
+  // The axis title stands clear of the tick labels, however long they are.
+  const double power = power_of(y_ticks).first;
+  double left = kMarginLeft;
+  for (const double v : y_ticks)
+    left = std::max(left, kAxisTitle + text_width(tick_label(v / power, (y_ticks[1] - y_ticks[0]) / power)));
+  Axes f{left, plot.width - kMarginRight, 0.0, 0.0, {}, {}};
   f.y = {y_ticks.front(), y_ticks.front() + span_of(y_ticks), 1.0, 0.0};
   const auto [legend, rows] = draw_legend(legend_of(plot, f), f.left, f.right, kTitleRow + 13.0);
   f.top = kTitleRow + rows * kLegendRow + 4.0 + (plot.phases.empty() ? 0.0 : kPhaseStrip);
   const double height = plot.height + (rows > 1 ? (rows - 1) * kLegendRow : 0.0);
-  f.bottom = height - kMarginBottom;
+  f.bottom = height - kMarginBottom - (plot.periods ? kPeriodRow : 0.0);
   f.x = {t0, t1, f.left, f.right};
   f.y.from = f.bottom;
   f.y.to = f.top;

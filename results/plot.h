@@ -38,6 +38,7 @@ struct Plot {
   std::string title;
   std::string y_label;  // with unit, "tension, kN"
   std::string x_label = "time, s";
+  bool periods = false;  // x is an angular frequency, rad/s: under each tick stands its period, too
   std::vector<PlotLine> lines;
   std::vector<PlotPhase> phases;
   std::vector<PlotLimit> limits;  // a limit far outside the data is named in the legend instead of drawn

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "results/crane_readings.h"
 #include "results/html.h"
 #include "results/series_codec.h"
 #include "sim/sea/wave_field.h"
@@ -15,7 +16,8 @@ namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kTonne = 9806.65;  // N
+constexpr double kTonne = 9806.65;      // N
+constexpr double kBeforeLiftOff = 5.0;  // s, that the replay opens before it
 
 Json numbers(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 Json number_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
@@ -200,15 +202,19 @@ Json sea_entry(const SeaSpec& sea) {
 Json bodies_entry(const Scene& scene, const RunView& view, Payload& payload) {
   Json bodies = Json::array();
   for (const SceneBody& body : scene.bodies) {
-    Json members = Json::array();
-    for (const SceneBody::Member& m : body.members)
-      members.push_back({{"from", numbers(m.from)}, {"to", numbers(m.to)}, {"radius", m.radius}});
+    const auto bars = [](const std::vector<SceneBody::Member>& members) {
+      Json out = Json::array();
+      for (const SceneBody::Member& m : members)
+        out.push_back({{"from", numbers(m.from)}, {"to", numbers(m.to)}, {"radius", m.radius}});
+      return out;
+    };
     bodies.push_back({{"name", readable_name(body.name)},
                       {"kind", kind_name(body.kind)},
                       {"floats", body.floats},
                       {"mesh", mesh_entry(body.mesh, payload)},
                       {"envelope", mesh_entry(body.envelope, payload)},
-                      {"members", members},
+                      {"members", bars(body.members)},
+                      {"pedestals", bars(body.pedestals)},
                       {"pose", pose_entry(view, body.name, payload)}});
   }
   return bodies;
@@ -216,6 +222,7 @@ Json bodies_entry(const Scene& scene, const RunView& view, Payload& payload) {
 
 Json scene_entry(const ReportData& data, const RunView& view, const Scene& scene, Payload& payload) {
   Json out = {{"sea", sea_entry(data.specification.sea)},
+              {"north", data.north ? Json(*data.north) : Json(nullptr)},
               {"target", numbers(data.specification.operation.target)},
               {"load_reference", numbers(data.specification.operation.load_reference)},
               {"bodies", bodies_entry(scene, view, payload)},
@@ -257,6 +264,17 @@ Json phases_entry(const Trajectory& run) {
     out.push_back(
         {{"name", readable_name(p.name)}, {"stage", stage_name(p.stage)}, {"start", p.start}, {"end", p.end}});
   return out;
+}
+
+/// Where the replay opens: just before the load lifts off, or where something begins to move.
+double opening_time(const ReportData& data) {
+  const std::vector<PhaseRecord>& phases = data.trajectory.phases;
+  if (phases.empty()) return 0.0;
+  const double lift_off = data.metrics.value("lift_off_time");
+  if (std::isfinite(lift_off)) return std::max(phases.front().start, lift_off - kBeforeLiftOff);
+  for (const PhaseRecord& phase : phases)
+    if (phase.stage != PhaseSpec::Stage::on_barge) return phase.start;
+  return phases.front().start;
 }
 
 Json contacts_entry(const ReportData& data) {
@@ -307,25 +325,13 @@ Json plot_entry(const Plot& plot, const std::vector<double>& time, Payload& payl
   return out;
 }
 
-/// The sum of the hoist wires' tensions, t; empty if there are none.
-std::vector<double> hook_load(const ReportData& data, const RunView& view) {
-  std::vector<double> sum;
-  for (const WireSpec& wire : data.specification.wires) {
-    const auto tension = view.series(wire.name + ".tension");
-    if (wire.role != WireSpec::Role::hoist || tension.empty()) continue;
-    sum.resize(tension.size(), 0.0);
-    for (std::size_t i = 0; i < tension.size(); ++i) sum[i] += tension[i] / kTonne;
-  }
-  return sum;
-}
-
 Json readings_entry(const ReportData& data, const RunView& view, Payload& payload) {
   Json out = Json::array();
   const auto add = [&](const std::string& label, const std::string& unit, int decimals, int series) {
     if (series >= 0) out.push_back({{"label", label}, {"unit", unit}, {"decimals", decimals}, {"series", series}});
   };
-  if (const std::vector<double> load = hook_load(data, view); !load.empty())
-    add("hook load", "t", 0, payload.add_series(payload.samples().peaks(load)));
+  for (const CraneReading& reading : crane_readings(view))
+    add(reading.label, reading.unit, reading.decimals, payload.add_series(payload.samples().peaks(reading.values)));
   add("load height", "m", 2, channel_series(view, data.specification.operation.load + ".z", payload));
   add("wave", "m", 2, channel_series(view, "sea.elevation", payload));
   return out;
@@ -336,7 +342,8 @@ Json readings_entry(const ReportData& data, const RunView& view, Payload& payloa
 std::string replay_text(const ReportData& data, const RunView& view, const Scene& scene,
                         const std::vector<ReportFigure>& figures, std::size_t budget) {
   const std::vector<double>& time = data.trajectory.time;
-  std::size_t series = 7 * scene.bodies.size() + scene.lines.size() + 2 * scene.moorings.size() + 3;
+  std::size_t series = 7 * scene.bodies.size() + scene.lines.size() + 2 * scene.moorings.size() + 3 +
+                       3 * scene.lines.size();  // readings: at most three for each hoist wire
   for (const ReportFigure& figure : figures) series += figure.plot.lines.size();
   const Samples samples(time, series, budget);
   Payload payload(samples);
@@ -349,6 +356,7 @@ std::string replay_text(const ReportData& data, const RunView& view, const Scene
       {"title", data.title.empty() ? data.specification.name : data.title},
       {"time",
        {{"at", payload.add_block(pack_integers(milliseconds))}, {"count", milliseconds.size()}, {"start", start}}},
+      {"opens", opening_time(data)},
       {"phases", phases_entry(data.trajectory)},
       {"contacts", contacts_entry(data)},
       {"scene", scene_entry(data, view, scene, payload)},

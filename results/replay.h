@@ -8,6 +8,7 @@
 //   phases    [{name, stage, start, end}], contacts [{name, kind, time, ...}]
 //   plots     the figures of the report in their order: lines, limits, ranges, markers
 //   readings  series that the scene shows as numbers
+//   opens     the time that is shown first, s
 // with `at` counted in bytes from the start of the blocks. viewer/source/payload.js reads it.
 #pragma once
 

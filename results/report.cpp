@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cctype>
+
 #include "results/files.h"
 #include "results/html.h"
 #include "results/replay.h"
@@ -11,13 +13,31 @@
 
 namespace stillhook {
 
+namespace {
+
+/// A key of the case may be broken after its dots and underscores, or a table of long keys would not fit on the page.
+std::string breakable(const std::string& text) {
+  const std::string escaped = escape_html(text);
+  std::string out;
+  for (std::size_t i = 0; i < escaped.size(); ++i) {
+    out += escaped[i];
+    const bool in_word =
+        i > 0 && i + 1 < escaped.size() && std::isalpha(static_cast<unsigned char>(escaped[i - 1])) != 0;
+    if ((escaped[i] == '.' || escaped[i] == '_') && in_word) out += "<wbr>";
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string table_html(const ReportTable& t, int numeric_from) {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
-  for (const std::string& cell : t.header) header.push_back(escape_html(cell));
+  for (const std::string& cell : t.header) header.push_back(breakable(cell));
   for (const auto& row : t.rows) {
     rows.emplace_back();
-    for (const std::string& cell : row) rows.back().push_back(escape_html(cell));
+    for (const std::string& cell : row)
+      rows.back().push_back(rows.back().empty() ? breakable(cell) : escape_html(cell));
   }
   std::string out = t.title.empty() ? "" : "<h3>" + escape_html(t.title) + "</h3>";
   if (!rows.empty()) out += html_table(header, rows, numeric_from);
@@ -38,8 +58,7 @@ std::string statement(const ReportData& data) {
   while (from < data.statement.size()) {  // an empty line starts a new paragraph
     std::size_t to = data.statement.find("\n\n", from);
     if (to == std::string::npos) to = data.statement.size();
-    out += "<p style=\"white-space:pre-line\">" +
-           escape_html(std::string_view(data.statement).substr(from, to - from)) + "</p>";
+    out += "<p class=\"asked\">" + escape_html(std::string_view(data.statement).substr(from, to - from)) + "</p>";
     from = to + 2;
   }
   return out;
@@ -98,9 +117,9 @@ std::string report_html(const ReportData& data) {
   section("statement", "What is asked", statement(data));
   if (data.search) section("search", "Baseline and plan", search_part(*data.search));
   section("limits", "Limits", limits_part(data));
-  section("basis", "Design basis", basis_part(data));
   section("loads", "Weights, hook loads and amplification", loads_part(data, view));
   section("procedure", "Procedure step by step", procedure_part(data, view));
+  section("basis", "Design basis", basis_part(data));
   section("plots", "Plots", plots_part(figures));
   section("metrics", "Metrics", metrics_part(data));
   section("contacts", "Contacts", contacts_part(data));
@@ -112,14 +131,17 @@ std::string report_html(const ReportData& data) {
             "<details><summary>Show the case file</summary><pre tabindex=\"0\">" + escape_html(data.case_text) +
                 "</pre></details>");
 
-  const std::string title = escape_html(data.title.empty() ? data.specification.name : data.title);
+  const std::string plain_title = data.title.empty() ? data.specification.name : data.title;
+  const std::string title = escape_html(plain_title);
   std::string page = fmt::format(
-      "{}<body><header><h1>{}</h1><p class=\"muted\">{}</p></header>\n<main><section id=\"overview\" "
+      "{}<body><header><h1>{}</h1>{}<p class=\"muted\">{}</p></header>\n<main><section id=\"overview\" "
       "aria-label=\"Overview\"><div class=\"judgement\">{}</div>{}</section>\n<nav "
       "aria-label=\"Contents\">{}</nav>{}</main>\n<footer>stillhook {} · {} · {}{}</footer>",
-      page_head(title, data.program_version, replay), title, escape_html(sea_sentence(data.specification.sea)),
-      verdict_part(data) + warnings(data), replay_part(data, replay), nav, body, escape_html(data.program_version),
-      escape_html(data.specification.name), cost(data), replay ? licences() : "");
+      page_head(title, data.program_version, replay, control_style(data.control, plain_title, data.program_version)),
+      title, control_html(data.control, data.program_version),
+      escape_html(sea_sentence(data.specification.sea, data.north)), verdict_part(data) + warnings(data),
+      replay_part(data, replay), nav, body, escape_html(data.program_version), escape_html(data.specification.name),
+      cost(data), replay ? licences() : "");
   if (replay) {
     page += "<script type=\"text/plain\" id=\"replay-data\">" + replay_text(data, view, scene, figures) +
             "</script>\n<script>";

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "results/document_control.h"
 #include "results/limits.h"
 #include "results/metrics.h"
 
@@ -89,6 +90,9 @@ struct SearchSection {
   std::string shown;                   // of several: the name of the one that the histories are of
   std::optional<SensitivityTable> sensitivities = {};
   std::optional<ParetoFront> pareto = {};
+  /// What fresh conditions say of the plan, for the first screen; empty = it was not tried in any.
+  std::string certificate = {};
+  bool certificate_kept = true;  // every hard limit, as far as its case allows
 };
 
 struct ReportData {
@@ -106,6 +110,8 @@ struct ReportData {
   const SearchSection* search = nullptr;
   std::vector<std::string> warnings = {};  // what must be known before the results are used, one sentence each
   std::vector<BasisEntry> basis = {};      // every value of the case, in its order
+  DocumentControl control = {};
+  std::optional<double> north = {};  // rad, true north from +x, counter-clockwise
 };
 
 /// The whole page.

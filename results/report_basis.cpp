@@ -22,7 +22,12 @@ std::string heading_of(const std::string& key) {
   return named ? top : key.substr(0, second);
 }
 
+bool has_sources(const std::vector<const BasisEntry*>& entries) {
+  return std::any_of(entries.begin(), entries.end(), [](const BasisEntry* e) { return !e->source.empty(); });
+}
+
 Rows rows_of(const std::vector<const BasisEntry*>& entries) {
+  const bool sources = has_sources(entries);
   Rows rows;
   std::string heading;
   for (const BasisEntry* e : entries) {
@@ -31,8 +36,8 @@ Rows rows_of(const std::vector<const BasisEntry*>& entries) {
       if (!now.empty()) rows.push_back({escape_html(readable_name(now))});  // "bodies.boom port"
     }
     const std::size_t skip = heading.empty() ? 0 : heading.size() + 1;
-    rows.push_back({"<code>" + escape_html(e->key.substr(skip)) + "</code>", escape_html(e->value),
-                    e->source.empty() ? "–" : escape_html(e->source)});
+    rows.push_back({"<code>" + escape_html(e->key.substr(skip)) + "</code>", escape_html(e->value)});
+    if (sources) rows.back().push_back(escape_html(e->source));
   }
   return rows;
 }
@@ -51,6 +56,12 @@ bool of_first_rank(const ReportData& data, const std::string& key) {
   return key.starts_with("operation.target");
 }
 
+std::string values_table(const std::vector<const BasisEntry*>& entries) {
+  std::vector<std::string> header = {"key, with its unit", "value"};
+  if (has_sources(entries)) header.push_back("source, as the case file gives it");
+  return html_table(header, rows_of(entries), -1);
+}
+
 }  // namespace
 
 std::string basis_part(const ReportData& data) {
@@ -60,11 +71,12 @@ std::string basis_part(const ReportData& data) {
     all.push_back(&e);
     if (of_first_rank(data, e.key)) first.push_back(&e);
   }
-  const std::vector<std::string> header = {"key, with its unit", "value", "source, as the case file gives it"};
-  return html_table(header, rows_of(first), -1) +
-         fmt::format("<details><summary>All {} values of the case</summary>{}</details>", all.size(),
-                     html_table(header, rows_of(all), -1)) +
-         "<p><small>Limits and their sources are under Limits.</small></p>";
+  std::string out =
+      values_table(first) +
+      fmt::format("<details><summary>All {} values of the case</summary>{}</details>", all.size(), values_table(all));
+  if (!has_sources(all))
+    out += "<p><small>The case file names no sources: a remark behind a value is shown beside it here.</small></p>";
+  return out + "<p><small>Limits and their sources are under Limits.</small></p>";
 }
 
 }  // namespace stillhook

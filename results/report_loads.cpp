@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTonneForce = 1000.0 * kStandardGravity;
 
-std::vector<const WireSpec*> hoist_wires(const Specification& s) {
+std::vector<const WireSpec*> hoist_wire_specs(const Specification& s) {
   std::vector<const WireSpec*> wires;
   for (const WireSpec& wire : s.wires)
     if (wire.role == WireSpec::Role::hoist) wires.push_back(&wire);
@@ -153,7 +153,7 @@ double tabulated_daf(LiftPlace place, double weight, double static_hook_load) {
 }
 
 std::string loads_part(const ReportData& data, const RunView& view) {
-  const std::vector<const WireSpec*> wires = hoist_wires(data.specification);
+  const std::vector<const WireSpec*> wires = hoist_wire_specs(data.specification);
   const BodySpec* load = load_of(data.specification);
   std::string out;
   if (load && !wires.empty() && !data.trajectory.static_poses.empty()) {

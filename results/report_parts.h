@@ -1,6 +1,7 @@
 // The parts of the report, each a piece of HTML. Used by report*.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,7 @@ std::string poses_part(const ReportData& data, const Scene& scene);
 std::string assumptions_part(const ReportData& data);
 std::string plots_part(const std::vector<ReportFigure>& figures);  // report_plots.cpp
 std::string search_part(const SearchSection& search);              // report_search.cpp
-std::string sea_sentence(const SeaSpec& sea);                      // report_procedure.cpp
+/// With the compass direction that the waves come from, where true north is known. report_procedure.cpp
+std::string sea_sentence(const SeaSpec& sea, std::optional<double> north = {});
 
 }  // namespace stillhook

@@ -75,6 +75,10 @@ class Plots {
   void group(const std::string& title) { group_ = title; }
   /// Keeps a plot that shows something.
   void add(Plot plot, const std::string& caption = "") {
+    const auto shows = [](const PlotLine& line) {
+      return std::any_of(line.value.begin(), line.value.end(), [](double v) { return std::isfinite(v); });
+    };
+    std::erase_if(plot.lines, [&](const PlotLine& line) { return !shows(line); });
     if (!plot.lines.empty()) figures_.push_back({group_, std::move(plot), caption});
   }
   std::vector<ReportFigure> take() { return std::move(figures_); }

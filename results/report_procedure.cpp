@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "results/html.h"
@@ -21,6 +22,12 @@ double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 double value_of(const StaticPose& pose, const std::string& key) {
   const auto found = pose.values.find(key);
   return found == pose.values.end() ? kNaN : found->second;
+}
+
+/// The compass direction that waves towards `heading` come from, degrees clockwise from true north, 0 to 360.
+double compass_from(double heading, double north) {
+  const double turn = std::fmod(180.0 + degrees(north - heading), 360.0);
+  return std::round(turn < 0.0 ? turn + 360.0 : turn) == 360.0 ? 0.0 : turn < 0.0 ? turn + 360.0 : turn;
 }
 
 std::string travel_text(const Specification& s, const DriveSpec& drive, double travel) {
@@ -170,7 +177,11 @@ std::string poses_table(const ReportData& data, const std::vector<StaticPose>& p
 std::string gear_sentences(const Specification& s) {
   std::string out;
   for (const BodySpec& body : s.bodies) {
-    if (body.hull.shape == HullSpec::Shape::none) continue;
+    if (body.moved_by_sea())
+      out += fmt::format("<li>{}: displacement RAOs from {}; it moves as in the sea alone, without the lift.</li>",
+                         escape_html(readable_name(body.name)),
+                         escape_html(std::filesystem::path(body.hydrodynamics.rao.file).filename().string()));
+    if (!body.floats()) continue;
     const HydrodynamicsSpec& h = body.hydrodynamics;
     const char* radiation = h.kind == HydrodynamicsSpec::Kind::constant ? "constant added mass and damping"
                             : h.kind == HydrodynamicsSpec::Kind::table ? "retardation functions from a coefficient file"
@@ -195,12 +206,13 @@ std::string gear_sentences(const Specification& s) {
 
 }  // namespace
 
-std::string sea_sentence(const SeaSpec& sea) {
+std::string sea_sentence(const SeaSpec& sea, std::optional<double> north) {
   const auto state =
       std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
   if (state == sea.states.end()) return "Sea state: " + sea.active;
-  const std::string towards =
+  std::string towards =
       fmt::format("travelling towards {}° from +x, counter-clockwise", fixed_number(degrees(state->heading), 0));
+  if (north) towards += fmt::format(", that is from {}° true", fixed_number(compass_from(state->heading, *north), 0));
   switch (state->type) {
     case SeaStateSpec::Type::calm:
       return fmt::format("Sea state {}: calm water", state->name);
@@ -212,10 +224,11 @@ std::string sea_sentence(const SeaSpec& sea) {
     case SeaStateSpec::Type::pierson_moskowitz:
       break;
   }
-  return fmt::format("Sea state {}: {}, Hs {} m, Tp {} s, {}, seed {}{}", state->name,
+  return fmt::format("Sea state {}: {}, Hs {} m, Tp {} s ({} rad/s), {}, seed {}{}", state->name,
                      state->type == SeaStateSpec::Type::jonswap ? "JONSWAP" : "Pierson–Moskowitz",
-                     fixed_number(state->significant_height, 2), fixed_number(state->peak_period, 1), towards,
-                     state->seed, state->spreading > 0.0 ? ", short-crested" : ", long-crested");
+                     fixed_number(state->significant_height, 2), fixed_number(state->peak_period, 1),
+                     fixed_number(2.0 * std::numbers::pi / state->peak_period, 3), towards, state->seed,
+                     state->spreading > 0.0 ? ", short-crested" : ", long-crested");
 }
 
 std::string procedure_part(const ReportData& data, const RunView& view) {
@@ -255,7 +268,7 @@ std::string poses_part(const ReportData& data, const Scene& scene) {
 
 std::string assumptions_part(const ReportData& data) {
   const Specification& s = data.specification;
-  std::string out = "<ul><li>" + escape_html(sea_sentence(s.sea)) + "; the waves grow over the first " +
+  std::string out = "<ul><li>" + escape_html(sea_sentence(s.sea, data.north)) + "; the waves grow over the first " +
                     fixed_number(s.sea.ramp, 0) + " s.</li>";
   out += gear_sentences(s);
   out += fmt::format(

@@ -10,7 +10,8 @@
 namespace stillhook {
 namespace {
 
-std::string difference(double before, double after, bool smaller_is_better) {
+/// `broken`: the change ends outside a limit, which is the only thing that is shown in red.
+std::string difference(double before, double after, bool smaller_is_better, bool broken = false) {
   if (!std::isfinite(before) || !std::isfinite(after)) return "–";
   const double change = after - before;
   const bool same = std::abs(change) <= 1e-9 * std::max(std::abs(before), std::abs(after));
@@ -20,7 +21,11 @@ std::string difference(double before, double after, bool smaller_is_better) {
   if (before != 0.0)
     text += fmt::format(" ({}{} %)", change / std::abs(before) > 0 ? "+" : "",
                         fixed_number(100.0 * change / std::abs(before), 1));
-  return fmt::format("<span class=\"{}\">{} {}</span>", good ? "pass" : "fail", text, good ? "better" : "worse");
+  return fmt::format("<span{}>{} {}</span>",
+                     good     ? " class=\"pass\""
+                     : broken ? " class=\"fail\""
+                              : "",
+                     text, good ? "better" : "worse");
 }
 
 /// Where a variable stands between its bounds: hollow = baseline, solid = plan.
@@ -54,6 +59,11 @@ PlotLine best_so_far(const std::string& label, const std::vector<SearchSection::
 
 std::string convergence_plot(const SearchSection& search) {
   if (search.history.empty() && search.random_history.empty()) return {};
+  const auto within = [](const std::vector<SearchSection::Point>& points) {
+    return std::any_of(points.begin(), points.end(), [](auto& p) { return p.feasible && std::isfinite(p.objective); });
+  };
+  if (!within(search.history) && !within(search.random_history))
+    return "<p>No evaluation was within the limits, so there is no curve of the best one to draw.</p>";
   Plot plot;
   plot.title = "Convergence: best objective within the limits so far";
   plot.x_label = "evaluation";
@@ -97,7 +107,7 @@ std::string limits_table(const SearchSection& search) {
                     (after.is_max ? "≤ " : "≥ ") + show_metric(after.metric, after.unit, after.limit).value,
                     verdict(before) + show_metric(before.metric, before.unit, before.value).value,
                     verdict(after) + show_metric(after.metric, after.unit, after.value).value,
-                    difference(before.value, after.value, after.is_max)});
+                    difference(before.value, after.value, after.is_max, !after.pass)});
   }
   if (rows.empty()) return {};
   return "<h3>Limits</h3>" + html_table({"criterion", "limit", "baseline", "plan", "change"}, rows);

@@ -16,10 +16,15 @@ main:has(#overview)>nav,main:has(#overview)>section:not(#overview){max-width:66r
 header:has(+main>#overview) p{max-width:none}
 #overview>div{margin-top:.7rem}
 .judgement .verdict{margin:0 0 .7rem;padding:.7rem .9rem;font-size:.92rem;overflow-wrap:anywhere}
+.judgement .tiles+.verdict{margin-top:.7rem}
 .judgement .tiles{grid-template-columns:1fr 1fr;gap:.45rem;margin:0}
 .judgement .tile{padding:.4rem .6rem}
 .judgement .tile b{font-size:1.2rem}
 .judgement .tile .pass,.judgement .tile .fail,.judgement .tile .warn{font-size:.8rem}
+.control{display:flex;flex-wrap:wrap;gap:.1rem 1.2rem;margin:.1rem 0 .35rem;font-size:.84rem;line-height:1.4}
+.control div{display:flex;gap:.4rem}
+.control dt{color:var(--muted)}
+.control dd{margin:0;font-weight:600}
 .key{display:block;line-height:1.5}
 .replay{min-width:0}
 h1{font-size:1.45rem;line-height:1.2;margin:0 0 .25rem;letter-spacing:-.01em}
@@ -27,6 +32,7 @@ h2{font-size:1.25rem;line-height:1.25;margin:2.5rem 0 .6rem;padding-top:.75rem;b
 h3{font-size:1rem;margin:1.5rem 0 .35rem}
 p{margin:.4rem 0;max-width:46rem;overflow-wrap:anywhere}
 a{color:var(--link)}
+p.asked{white-space:pre-line;max-width:none}
 .muted,small{color:var(--muted)}
 small{font-size:.84rem}
 nav{margin:1rem 0 0;font-size:.9rem}
@@ -51,6 +57,7 @@ thead th{font-weight:600;border-bottom:2px solid #7c8894;vertical-align:bottom}
 tbody th{font-weight:500}
 td.n,th.n{text-align:right}
 td.n{white-space:nowrap}
+td.n.wide{white-space:normal}
 tr.group th{background:var(--soft);font-weight:600}
 .pass{color:var(--pass);font-weight:650}
 .fail{color:var(--fail);font-weight:650}
@@ -83,8 +90,9 @@ footer{margin-top:2.5rem;padding-top:.8rem;padding-bottom:2rem;border-top:1px so
 a:focus-visible,summary:focus-visible,.scroll:focus-visible{outline:3px solid #005c94;outline-offset:2px}
 @media(max-width:900px){#overview{display:flex;flex-direction:column;align-items:stretch}.judgement{display:contents}.judgement .verdict{order:-2;margin-top:.7rem}.replay{order:-1}.judgement .tiles{margin-top:1rem}.replay .phases{margin:.2rem 0}}
 @media(max-width:480px){main,header,footer{padding-left:.9rem;padding-right:.9rem}h1{font-size:1.35rem}.tiles{grid-template-columns:1fr 1fr}.tile b{font-size:1.15rem}table{min-width:36rem}}
-@page{size:A4;margin:14mm 13mm}
-@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}nav{display:none}.scroll{overflow:visible}table{font-size:7.6pt}th,td{padding:.18rem .3rem}td.n,th.n{white-space:normal}td small,th small{font-size:inherit}.judgement .tiles{grid-template-columns:repeat(5,1fr)}.poses{grid-template-columns:1fr 1fr 1fr}tr,.tile,.verdict,.poses figure{break-inside:avoid}h2,h3{break-after:avoid}svg.plot{min-width:0}thead{display:table-header-group}
+@page{size:A4;margin:18mm 13mm 17mm;font:8pt system-ui,"Segoe UI",Helvetica,Arial,sans-serif;color:#4a5560}
+@page{@top-left{text-align:left}@top-right{text-align:right}@bottom-left{text-align:left}@bottom-right{text-align:right}}
+@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}nav{display:none}.scroll{overflow:visible}table{font-size:7.6pt}th,td{padding:.18rem .3rem}td.n,th.n{white-space:normal}td small,th small{font-size:inherit}.judgement .tiles{grid-template-columns:repeat(5,1fr)}.poses{grid-template-columns:1fr 1fr 1fr}tr,.tile,.verdict,.poses figure{break-inside:avoid}h2,h3{break-after:avoid}svg.plot{min-width:0}p.asked{font-size:8.5pt}thead{display:table-header-group}
 .track i,.phases li>b,.verdict,tr.group th,pre{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 }

@@ -11,6 +11,7 @@
 namespace stillhook {
 namespace {
 
+constexpr std::size_t kShortCell = 14;  // bytes: a number with its unit
 
 std::string cell(const std::string& name, const std::string& unit, double value) {
   const Shown shown = show_metric(name, unit, value);
@@ -99,8 +100,12 @@ std::string clock_time(double seconds) {
 
 std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
                        int numeric_from) {
-  const auto cls = [&](std::size_t i) {
-    return numeric_from >= 0 && static_cast<int>(i) >= numeric_from ? " class=\"n\"" : "";
+  const auto numeric = [&](std::size_t i) { return numeric_from >= 0 && static_cast<int>(i) >= numeric_from; };
+  const auto cls = [&](std::size_t i) { return numeric(i) ? " class=\"n\"" : ""; };
+  const auto cell_class = [&](std::size_t i, const std::string& cell) {
+    return numeric(i) && cell.size() > kShortCell && cell.find(' ') != std::string::npos
+               ? " class=\"n wide\""
+               : cls(i);  // an interval, a sentence: it may wrap
   };
   std::string out = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
   for (std::size_t i = 0; i < header.size(); ++i) out += fmt::format("<th scope=\"col\"{}>{}</th>", cls(i), header[i]);
@@ -112,7 +117,8 @@ std::string html_table(const std::vector<std::string>& header, const std::vector
     }
     out += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i)
-      out += i == 0 ? "<th scope=\"row\">" + row[i] + "</th>" : fmt::format("<td{}>{}</td>", cls(i), row[i]);
+      out += i == 0 ? "<th scope=\"row\">" + row[i] + "</th>"
+                    : fmt::format("<td{}>{}</td>", cell_class(i, row[i]), row[i]);
     out += "</tr>";
   }
   return out + "</tbody></table></div>";
@@ -130,13 +136,12 @@ std::string limits_part(const ReportData& data) {
     const char* verdict = c.pass   ? "<span class=\"pass\">✓ kept</span>"
                           : c.hard ? "<span class=\"fail\">✗ broken</span>"
                                    : "<span class=\"warn\">! warning</span>";
-    const double share = relative_margin(c);
+    const std::string use = limit_use_text(c);
     rows.push_back(
         {escape_html(c.metric), cell(c.metric, c.unit, c.value),
          (c.is_max ? "≤\u00a0" : "≥\u00a0") + cell(c.metric, c.unit, c.limit),
-         show_metric(c.metric, c.unit, c.margin).value +
-             (std::isfinite(share) ? fmt::format(" <small>({} %)</small>", fixed_number(100.0 * share, 0)) : ""),
-         verdict, when(data, c.scenario, c.time), phase_cell(c.phase), c.source.empty() ? "case" : escape_html(c.source)});
+         show_metric(c.metric, c.unit, c.margin).value + (use.empty() ? "" : " <small>(" + use + ")</small>"), verdict,
+         when(data, c.scenario, c.time), phase_cell(c.phase), c.source.empty() ? "case" : escape_html(c.source)});
   }
   return html_table({"criterion", "value", "limit", "margin", "verdict", "reached at", "phase", "source of the limit"},
                     rows, -1);
@@ -153,7 +158,7 @@ std::string metrics_part(const ReportData& data) {
   std::string out =
       "<h3>Over the operation</h3>" + html_table({"metric", "value", "reached at", "phase", "meaning"}, rows, -1);
   out += element_table(data, "Motion of the load by phase", {"phase"});
-  out += element_table(data, "Wires", {"wire", "hoist wire", "hoist wire or crane"});
+  out += element_table(data, "Wires", {"wire", "hoist wire", "hoist wire or crane", "wire or crane"});
   out += element_table(data, "Cranes", {"crane", "crane vessel"});
   out += element_table(data, "Winches", {"winch"});
   out += element_table(data, "Taglines", {"tagline"});

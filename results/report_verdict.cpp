@@ -46,13 +46,39 @@ std::string governing_sentence(const ReportData& data) {
   if (!governing->phase.empty()) when += " in " + escape_html(readable_name(governing->phase));
   if (!governing->scenario.empty()) when += " in scenario " + escape_html(governing->scenario);
   if (std::isfinite(governing->time)) when += " at " + time_in(data, governing->scenario, governing->time);
-  std::string share;
-  if (governing->limit != 0.0 && std::isfinite(relative_margin(*governing)))
-    share = fmt::format(", a margin of {} %", fixed_number(100.0 * relative_margin(*governing), 0));
+  std::string share = limit_use_text(*governing);
+  if (!share.empty()) share = ": " + share;
   return fmt::format("<p>Governing limit: {}: <b>{}</b>, {} {}{}{}.</p>", name,
                      value_with_unit(governing->metric, governing->unit, governing->value),
                      governing->is_max ? "limit" : "at least",
                      value_with_unit(governing->metric, governing->unit, governing->limit), share, when);
+}
+
+/// How much the verdict rests on: one seed, the scenarios of a search, fresh conditions.
+std::string ground_of_verdict(const ReportData& data) {
+  const SeaSpec& sea = data.specification.sea;
+  const auto state =
+      std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
+  const bool irregular = state != sea.states.end() && (state->type == SeaStateSpec::Type::jonswap ||
+                                                       state->type == SeaStateSpec::Type::pierson_moskowitz);
+  const SearchSection* search = data.search;
+  std::string out;
+  if (search && search->scenarios.size() > 1)
+    out += fmt::format(
+        "<p>Limits are judged in all {} scenarios of the search; replay, plots and the tables by phase are of one of "
+        "them, {}.</p>",
+        search->scenarios.size(), escape_html(readable_name(search->shown)));
+  else if (irregular)
+    out += fmt::format(
+        "<p>This is one run in one seed of the sea ({}): other seeds have other extremes. <code>plan</code> tries "
+        "several, and with <code>certify</code> fresh ones.</p>",
+        state->seed);
+  if (!search) return out;
+  if (!search->certificate.empty())
+    return out + fmt::format("<p class=\"certificate\"><b class=\"{}\">Certificate:</b> {}</p>",
+                             search->certificate_kept ? "pass" : "fail", escape_html(search->certificate));
+  return out +
+         "<p>The plan has not been tried in conditions that its search has not seen (<code>plan.certify</code>).</p>";
 }
 
 /// A number that matters, beside the limit it has.
@@ -148,11 +174,14 @@ std::string verdict_part(const ReportData& data) {
   } else if (warned > 0) {
     cls = " warn";
     headline = fmt::format("Within limits, with {} warning{}", warned, warned == 1 ? "" : "s");
+  } else if (data.search && !data.search->certificate_kept) {
+    cls = " warn";
+    headline = "Within limits in the search's conditions, not in fresh ones";
   } else {
     headline = data.limits.empty() ? "Completed" : "Within limits";
   }
-  std::string out = fmt::format("<div class=\"verdict{}\" role=\"status\"><strong>{}</strong>{}{}</div>", cls,
-                                escape_html(headline), detail, governing_sentence(data));
+  std::string out = fmt::format("<div class=\"verdict{}\" role=\"status\"><strong>{}</strong>{}{}{}</div>", cls,
+                                escape_html(headline), detail, governing_sentence(data), ground_of_verdict(data));
   out += "<div class=\"tiles\">";
   out += tile(data, "daf_total", "DAF, hook load", false) + tile(data, "hook_load_max", "largest hook load", true);
   out += tile(data, "sway_peak", "largest sway", false) + closest_clearance(data);

@@ -33,7 +33,7 @@ Mesh hull_mesh(const HullSpec& hull) {
   if (hull.shape != HullSpec::Shape::mesh) return {};
   try {
     Mesh mesh = read_mesh(hull.mesh_file, {hull.mesh_scale, hull.mesh_origin, hull.mesh_attitude, hull.mesh_mend,
-                                           hull.mesh_deck_height});
+                                           hull.mesh_deck_height, hull.mesh_mirror});
     if (mesh.triangles.size() <= kMostTriangles) return mesh;
   } catch (const MeshError&) {  // the run had it; it is gone since
   }
@@ -115,6 +115,40 @@ std::vector<SceneBody::Member> members_of(const Specification& s, const std::str
   return members;
 }
 
+/// The highest point of a mesh below a point, straight down in B; NaN if there is none.
+double height_under(const Mesh& mesh, const Vector3& p) {
+  double highest = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& t : mesh.triangles) {
+    const Vector3 &a = mesh.vertices[static_cast<std::size_t>(t[0])],
+                  &b = mesh.vertices[static_cast<std::size_t>(t[1])],
+                  &c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const double area = (b - a).head<2>().x() * (c - a).y() - (b - a).y() * (c - a).x();
+    if (area == 0.0) continue;  // an upright side
+    const double v = ((p - a).x() * (c - a).y() - (p - a).y() * (c - a).x()) / area,
+                 w = ((b - a).x() * (p - a).y() - (b - a).y() * (p - a).x()) / area;
+    if (v < 0.0 || w < 0.0 || v + w > 1.0) continue;
+    const double z = a.z() + v * (b - a).z() + w * (c - a).z();
+    if (z < p.z() && !(highest >= z)) highest = z;
+  }
+  return highest;
+}
+
+/// What stands between a body's deck and the hinges that the case puts above it: it knows of no structure there, but a
+/// crane that hovers is no picture of one.
+std::vector<SceneBody::Member> pedestals_of(const Specification& s, const SceneBody& body) {
+  std::vector<SceneBody::Member> pedestals;
+  for (const JointSpec& joint : s.joints) {
+    if (joint.parent != body.name || joint.type != JointSpec::Type::revolute || !(joint.axis.norm() > 0.0)) continue;
+    const Vector3& hinge = joint.point_on_parent;
+    const double deck = height_under(body.mesh, hinge), height = hinge.z() - deck;
+    if (!(height > kSamePoint)) continue;
+    const bool slews = std::abs(joint.axis.normalized().z()) > 0.7;  // nearer to upright than 45 deg
+    const double radius = slews ? std::clamp(0.3 * height, 1.0, 2.5) : std::clamp(0.12 * height, 0.3, 0.8);
+    pedestals.push_back({Vector3(hinge.x(), hinge.y(), deck), hinge, radius});
+  }
+  return pedestals;
+}
+
 SceneBody scene_body(const Specification& s, const BodySpec& body) {
   SceneBody out;
   out.name = body.name;
@@ -130,6 +164,7 @@ SceneBody scene_body(const Specification& s, const BodySpec& body) {
     out.envelope = clearance_box(s, body.name);
   if (out.mesh.triangles.empty()) out.mesh = known_box(s, body.name);
   if (out.mesh.triangles.empty()) out.members = members_of(s, body.name);
+  out.pedestals = pedestals_of(s, out);
   return out;
 }
 
@@ -177,9 +212,11 @@ SceneMooring scene_mooring(const Specification& s, const Trajectory& trajectory,
     X_WB = trajectory.static_poses.front().bodies[static_cast<std::size_t>(m.body)];
   const Vector3 fairlead = X_WB * spec.fairlead;
   const Vector3 outward(std::cos(spec.azimuth), std::sin(spec.azimuth), 0.0);
-  m.anchor = fairlead + spec.anchor_distance * outward;
+  m.anchor = spec.anchor.value_or(Vector3(fairlead + spec.anchor_distance * outward));
   if (spec.type != MooringSpec::Type::catenary) return m;
   m.weight = spec.weight;
+  m.hangs_free = spec.weight < 0.0 || (spec.anchor && spec.anchor->z() > -s.sea.depth + 0.05);  // as in mooring.cpp
+  if (spec.anchor) return m;
   const CatenaryLine line{spec.length, spec.weight, spec.axial_stiffness, spec.seabed_friction, true};
   m.anchor = fairlead + catenary_distance(line, spec.pretension, fairlead.z() + s.sea.depth) * outward;
   m.anchor.z() = -s.sea.depth;

@@ -28,6 +28,7 @@ struct SceneBody {
   bool floats = false;  // the mesh is a hull
   Mesh envelope;        // m, in B: the box of its clearances where the mesh is another; empty if there is none
   std::vector<Member> members;
+  std::vector<Member> pedestals;  // what carries the hinges on it that lie above its deck, upright in B
 };
 
 struct SceneLine {

@@ -134,6 +134,7 @@ std::string summary_json(const Summary& summary) {
   Json document;
   document["schema_version"] = Summary::kSchemaVersion;
   document["program"] = "stillhook " + summary.program_version;
+  document["date"] = summary.date;
   document["case"] = summary.case_name;
   document["verb"] = summary.verb;
   document["sea"] = summary.sea;

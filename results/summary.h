@@ -72,6 +72,7 @@ struct Summary {
   static constexpr int kSchemaVersion = 1;
   std::string case_name, verb, sea;  // sea: name of the sea state
   std::string program_version;
+  std::string date;  // when the run was made, "2026-03-01 14:05 UTC"; given by the program that runs it, never reckoned
   RunStatus status = RunStatus::not_run;
   std::string message;
   double simulated = std::numeric_limits<double>::quiet_NaN();  // s

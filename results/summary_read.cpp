@@ -50,6 +50,7 @@ Summary summary_of(const Json& document) {
   Summary summary;
   const std::string program = document.at("program").get<std::string>();
   summary.program_version = program.substr(program.find(' ') + 1);
+  summary.date = document.value("date", std::string());  // older runs have none
   summary.case_name = document.at("case").get<std::string>();
   summary.verb = document.at("verb").get<std::string>();
   summary.sea = document.at("sea").get<std::string>();

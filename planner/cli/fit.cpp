@@ -9,6 +9,7 @@
 #include "planner/cli/interrupt.h"
 #include "planner/cli/progress.h"
 #include "planner/cli/tables.h"
+#include "planner/document_control.h"
 #include "planner/fit_report.h"
 #include "results/files.h"
 #include "tuning/measured_table.h"
@@ -78,6 +79,7 @@ int exit_code(const Identification& result) {
 }  // namespace
 
 int run_fit(const CommonOptions& options, const FitArguments& arguments) {
+  const std::string date = date_now();
   const std::atomic<bool>& stop = catch_interrupts();
   Case c = load_case(options);
   if (!arguments.measured.empty()) {
@@ -105,14 +107,15 @@ int run_fit(const CommonOptions& options, const FitArguments& arguments) {
     write_or_refuse([&] { write_file(folder.fitted(), case_text(fitted, statement)); });
     files.push_back("fitted.toml");
   }
+  const DocumentControl control = document_control(c, date, folder.case_file());
   if (result.usable && !result.interrupted)
-    write_or_refuse([&] { write_file(folder.report(), fit_report(c, result, files)); });
-  const std::string summary = fit_summary(c, result, files);
+    write_or_refuse([&] { write_file(folder.report(), fit_report(c, result, files, control)); });
+  const std::string summary = fit_summary(c, result, files, date);
   write_or_refuse([&] { write_file(folder.summary(), summary); });  // last: its presence says that all is there
   for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
   if (options.json)
     fmt::print("{}", summary);
-  else if (result.usable && !result.interrupted)
+  else if (!options.quiet && result.usable && !result.interrupted)
     print_result(result, files, folder);
   if (result.interrupted) spdlog::warn("interrupted before the fit was done");
   if (!result.usable && !result.interrupted) spdlog::error("{}", result.message);

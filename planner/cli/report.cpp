@@ -15,9 +15,16 @@ namespace {
 
 void rebuild_run(const RunFolder& folder, const Case& c, const std::string& statement) {
   Trajectory trajectory = open_archive(folder.history());
-  // The archive of a run does not depend on the machine; how long it took is in the summary, if the run came so far.
-  if (std::filesystem::exists(folder.summary())) trajectory.wall = read_summary(folder.summary()).wall;
-  const RunResult run = judged(c.specification, std::move(trajectory), c.limits);
+  // The archive of a run does not depend on machine and day; how long it took, and when, is in the summary, if the run
+  // came so far.
+  std::string date;
+  if (std::filesystem::exists(folder.summary())) {
+    const Summary summary = read_summary(folder.summary());
+    trajectory.wall = summary.wall;
+    date = summary.date;
+  }
+  RunResult run = judged(c.specification, std::move(trajectory), c.limits);
+  run.date = date;
   if (run.trajectory.status == RunStatus::interrupted) spdlog::warn("{}", run.trajectory.message);
   write_run_report(folder, run, prepare_run(c, c.specification), c, statement);
 }
@@ -37,6 +44,7 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
     run.metrics = summary.metrics;
     run.limits = summary.limits;
     run.warnings = summary.warnings;
+    run.date = summary.date;
   } else {
     run.metrics = deciding_metrics(evaluator, result.search.best);
     run.limits = deciding_limits(evaluator, result.search.best);
@@ -54,6 +62,8 @@ void rebuild_plan(const RunFolder& folder, const Case& c, const std::string& sta
     spdlog::warn("the rebuilt report has no certificate and no sensitivities: {} is missing (`plan --resume` makes it)",
                  folder.judgement());
   search.sensitivities = judgement.sensitivities;
+  search.certificate = judgement.certificate;
+  search.certificate_kept = judgement.certificate_kept;
   write_run_report(folder, run, prepare_run(planned, run.specification), planned, statement, &search,
                    {history_note(evaluator, governing)}, judgement.tables);
 }

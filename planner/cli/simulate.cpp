@@ -7,6 +7,7 @@
 #include "planner/cli/progress.h"
 #include "planner/cli/run_files.h"
 #include "planner/cli/tables.h"
+#include "planner/document_control.h"
 #include "results/files.h"
 
 namespace stillhook {
@@ -51,6 +52,7 @@ void print_run(const Summary& summary, const RunFolder& folder) {
 
 int run_simulate(const CommonOptions& options) {
   const std::atomic<bool>& stop = catch_interrupts();
+  const std::string date = date_now();
   const Case c = load_with_sea_seed(options);
   const std::string statement = statement_of(options.input);
   const PreparedRun prepared = prepare_run(c, c.specification, panel_method_progress(options.quiet, &stop));
@@ -64,7 +66,8 @@ int run_simulate(const CommonOptions& options) {
   const auto tell = [&](double t, double t_end) {
     progress.update(t_end > 0.0 ? t / t_end : 0.0, fmt::format("{:.0f} of {:.0f} s simulated", t, t_end));
   };
-  const RunResult run = run_lift(prepared, c.limits, &stop, tell, &archive);
+  RunResult run = run_lift(prepared, c.limits, &stop, tell, &archive);
+  run.date = date;
   progress.clear();
   const Summary summary = summary_of(run, c, "simulate");
   write_run_report(folder, run, prepared, c, statement);
@@ -72,10 +75,10 @@ int run_simulate(const CommonOptions& options) {
 
   if (options.json)
     fmt::print("{}\n", summary_json(summary));
-  else
+  else if (!options.quiet)
     print_run(summary, folder);
   if (run.metrics.status == RunStatus::failed) spdlog::error("failed: {}", run.metrics.message);
-  if (run.trajectory.status == RunStatus::diverged) spdlog::error("diverged: {}", run.trajectory.message);
+  if (run.trajectory.status == RunStatus::diverged) spdlog::error("{}", run.trajectory.message);
   if (run.trajectory.status == RunStatus::interrupted) spdlog::warn("interrupted: the folder holds the part that ran");
   return exit_code(run);
 }

@@ -15,7 +15,11 @@ execute_process(COMMAND ${PROGRAM} simulate ${CASE} --out ${RUN} --force --quiet
 if(NOT code EQUAL 0 AND NOT code EQUAL 3)  # 3: a limit is violated, which a run cut short may do
   message(FATAL_ERROR "stillhook simulate ended with ${code}: ${error}")
 endif()
-execute_process(COMMAND ${NODE} ${TEST} ${CHROMIUM} ${RUN}/report.html ${RUN}/pictures RESULT_VARIABLE code)
+execute_process(COMMAND ${PROGRAM} export ${RUN} --csv --force RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE error)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "stillhook export ended with ${code}: ${error}")
+endif()
+execute_process(COMMAND ${NODE} ${TEST} ${CHROMIUM} ${RUN}/report.html ${RUN}/history.csv ${RUN}/pictures RESULT_VARIABLE code)
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "the report of ${CASE} has faults, named above")
 endif()

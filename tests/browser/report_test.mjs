@@ -1,14 +1,15 @@
 // Opens a report from the disk as a reader would and tries everything in it:
-//   node report_test.mjs CHROMIUM REPORT.html [FOLDER for pictures]
+//   node report_test.mjs CHROMIUM REPORT.html HISTORY.csv [FOLDER for pictures]
+// HISTORY.csv is the run's own export: what the page shows is compared with it.
 // Ends with 0, or with 1 and one line for each thing that is wrong.
 
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Chromium } from "./chromium.mjs";
 import { faintTexts, overlaps } from "./layout.mjs";
 
-const [program, report, pictures] = process.argv.slice(2);
+const [program, report, history, pictures] = process.argv.slice(2);
 const faults = [];
 const check = (holds, what) => {
   if (!holds) faults.push(what);
@@ -65,7 +66,74 @@ async function checkScrubbing(page) {
   }
 }
 
-/** The scene's bodies stand where the run has them, the sea is the run's own. */
+/** The run's export: its channels by name, underscores as blanks, which is how the page writes names. */
+function readHistory(path) {
+  const [head, ...rows] = readFileSync(path, "utf8").trim().split("\n").map((line) => line.split(","));
+  const columns = new Map(head.map((title, i) => [title.replace(/ \[[^\]]*\]$/, "").replaceAll("_", " "), rows.map((row) => Number(row[i]))]));
+  return { time: columns.get("time"), columns };
+}
+
+/** R_WB of roll, pitch and yaw, which turn about x, then y, then z of the world; written out. */
+function rotation(roll, pitch, yaw) {
+  const [cr, sr, cp, sp, cy, sy] = [Math.cos(roll), Math.sin(roll), Math.cos(pitch), Math.sin(pitch), Math.cos(yaw), Math.sin(yaw)];
+  return [[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+          [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+          [-sp, cp * sr, cp * cr]];
+}
+
+/** Every body stands and is turned in the picture as the run's own angles say, and tensions, hook load and wave are the run's. */
+async function checkAgainstRun(page, run) {
+  const shown = await page.evaluate(`(() => {
+    const { payload, clock, scene } = stillhook;
+    const { header } = payload;
+    const out = [];
+    for (let k = 0; k <= 40; ++k) {
+      const i = Math.round((k / 40) * (payload.time.length - 1));
+      clock.set(payload.time[i]);
+      out.push({
+        time: payload.time[i],
+        bodies: scene.bodies.filter(({ body }) => body.pose.length).map(({ body, group }) => ({ name: body.name, at: [...group.matrixWorld.elements] })),
+        lines: header.scene.lines.filter((line) => line.tension >= 0).map((line) => ({ name: line.name, kind: line.kind, tension: payload.series(line.tension)[i] })),
+        readings: Object.fromEntries(header.readings.map((r) => [r.label, payload.series(r.series)[i]])),
+      });
+    }
+    return out;
+  })()`);
+  const tonne = 9806.65;
+  let turned = 0;
+  for (const { time, bodies, lines, readings } of shown) {
+    const row = run.time.findIndex((t) => Math.abs(t - time) < 6e-4); // the page's times are whole milliseconds
+    if (row < 0) {
+      check(false, `the run has no sample at ${time} s`);
+      continue;
+    }
+    const value = (name) => run.columns.get(name)?.[row] ?? NaN;
+    for (const { name, at } of bodies) {
+      const place = ["x", "y", "z"].map((axis) => value(`${name}.${axis}`));
+      // A series keeps 1/65534 of its range: 2 mm in 100 m.
+      for (let k = 0; k < 3; ++k)
+        check(near(at[12 + k], place[k], 3e-3), `${name} stands at ${at[12 + k]}, not at ${place[k]} (${"xyz"[k]}, ${time} s)`);
+      const R = rotation(value(`${name}.roll`), value(`${name}.pitch`), value(`${name}.yaw`));
+      // Each part of a quaternion is stored to half of 1/65534 of its range of at most 2.
+      for (let column = 0; column < 3; ++column)
+        for (let r = 0; r < 3; ++r)
+          check(near(at[4 * column + r], R[r][column], 2e-4), `${name} is not turned as in the run at ${time} s: ${at[4 * column + r]} for ${R[r][column]}`);
+      turned = Math.max(turned, Math.abs(R[1][0]), Math.abs(R[2][0]), Math.abs(R[2][1]));
+    }
+    let hoisted = 0;
+    for (const { name, kind, tension } of lines) {
+      const truth = value(`${name}.tension`) / tonne;
+      check(near(tension, truth, 2e-4 * Math.max(50, Math.abs(truth)) + 0.05), `tension of ${name} is ${tension} t, not ${truth} t (${time} s)`);
+      if (kind === "hoist") hoisted += truth;
+    }
+    check(near(readings["hook load"], hoisted, 0.1), `the hook load reads ${readings["hook load"]} t, not ${hoisted} t (${time} s)`);
+    check(near(readings.wave, value("sea.elevation"), 1e-3), `the wave reads ${readings.wave} m, not ${value("sea.elevation")} m (${time} s)`);
+  }
+  // Without a large turn a conjugated quaternion would pass: the booms of every shipped lift lean by more than this.
+  check(turned > 0.2, `nothing in this run is turned by more than ${turned}, so its attitudes are not tried`);
+}
+
+/** The scene's bodies stand where the payload has them, the sea is the run's own. */
 async function checkTruth(page) {
   const wrong = await page.evaluate(`(() => {
     const { payload, clock, scene, elevation } = stillhook;
@@ -157,6 +225,7 @@ async function checkKeys(page) {
     check(names.includes(wanted), `Tab does not reach "${wanted}": ${names.join(", ")}`);
 }
 
+const run = readHistory(history);
 const browser = await Chromium.launch(program);
 try {
   for (const [width, height] of [[1280, 800], [390, 844]]) {
@@ -166,9 +235,13 @@ try {
     await page.until(`document.documentElement.dataset.replay === "ready"`);
     await page.settle();
     check(await page.evaluate("stillhook.scene !== null"), `${size}: the scene is not there`);
+    check(await page.evaluate("stillhook.clock.time === stillhook.payload.header.opens"), `${size}: the replay does not open where it shall`);
+    await page.evaluate("stillhook.clock.set(stillhook.clock.start)"); // calm still: the waves grow from nothing
+    check(!(await page.evaluate(`/\u22120(\\.0*)? /.test(document.querySelector(".readings").textContent)`)), `${size}: a reading is minus zero`);
     await checkScrubbing(page);
     if (width > 1000) {
       await checkTruth(page);
+      await checkAgainstRun(page, run);
       await checkContacts(page);
       await checkKeys(page);
     }

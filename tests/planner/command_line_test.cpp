@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "planner/plan.h"
+#include "results/sha256.h"
 #include "tests/planner/program.h"
 
 using namespace stillhook;
@@ -100,6 +101,43 @@ TEST_CASE("check prints the poses and phases, as text and as JSON") {
   CHECK(json::parse(run(folder, {"schema"}).out).contains("properties"));
 }
 
+TEST_CASE("check draws the start pose into a file and every pose into a folder") {
+  const Folder folder;
+  const Result one = run(folder, {"check", kCase, "--draw", "start.svg"});
+  CHECK(one.code == 0);
+  CHECK_THAT(one.out, Catch::Contains("Drawn: start.svg"));
+  const std::string svg = content(folder / "start.svg");
+  CHECK_THAT(svg, Catch::StartsWith("<svg") && Catch::Contains("xmlns") && Catch::Contains("elevation and plan"));
+  // Never over a file that is there, unless told.
+  const Result again = run(folder, {"check", kCase, "--draw", "start.svg"});
+  CHECK(again.code == 2);
+  CHECK_THAT(again.err, Catch::Contains("start.svg") && Catch::Contains("--force"));
+  CHECK(run(folder, {"check", kCase, "--draw", "start.svg", "--force"}).code == 0);
+  // The load goes up 4 m in `hoist_up`; `settle` and `hold` look like what is before them.
+  const json all = json::parse(run(folder, {"check", kCase, "--draw", "poses", "--json"}).out);
+  CHECK(all["drawings"] == json({"poses/1_start.svg", "poses/2_hoist_up.svg"}));
+  for (const std::string name : {"1_start", "2_hoist_up"}) CHECK(fs::exists(folder / ("poses/" + name + ".svg")));
+  CHECK(run(folder, {"check", kCase, "--draw", "start.svg/poses"}).code == 2);  // a file is no folder
+}
+
+TEST_CASE("--quiet prints nothing but errors, and JSON where it is asked for") {
+  const Folder folder;
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"check", kCase},
+                                             {"simulate", kCase, "--out", "s"},
+                                             {"plan", kCase, "--out", "p", "--evaluations", "4"},
+                                             {"tune", kCase, "--out", "t", "--evaluations", "4"}}) {
+    CAPTURE(arguments);
+    std::vector<std::string> quiet = arguments;
+    quiet.push_back("--quiet");
+    const Result result = run(folder, quiet);
+    CHECK(result.code == 0);
+    CHECK(result.out.empty());
+    CHECK(result.err.empty());
+  }
+  CHECK(json::parse(run(folder, {"check", kCase, "--quiet", "--json"}).out)["case"] == "small_lift");
+}
+
 TEST_CASE("simulate leaves a complete folder, and refuses to overwrite it") {
   const Folder folder;
   const Result first = run(folder, {"simulate", kCase, "--json"});
@@ -153,6 +191,30 @@ TEST_CASE("the report of a run folder can be rebuilt, for a run and for a plan")
     const bool same = content(report) == std::regex_replace(before, time_taken, "");
     CHECK(same);
   }
+}
+
+TEST_CASE("a report says when its run was made, of which case, and who stands for it, also when it is made again") {
+  const Folder folder;
+  REQUIRE(run(folder, {"simulate", kCase, "--out", "s", "--set", "revision=B", "--set", "author='A. Naval'", "--set",
+                       "north_deg=90"})
+              .code == 0);
+  const json summary = json::parse(content(folder / "s/summary.json"));
+  const std::string date = summary["date"];
+  CHECK(std::regex_match(date, std::regex("20[0-9]{2}-[01][0-9]-[0-3][0-9] [0-2][0-9]:[0-5][0-9] UTC")));
+  // Another day: a rebuilt report keeps the date of the run, which stands in summary.json alone.
+  std::string older = content(folder / "s/summary.json");
+  older.replace(older.find(date), date.size(), "2001-02-03 04:05 UTC");
+  std::ofstream(folder / "s/summary.json") << older;
+  REQUIRE(run(folder, {"report", "s"}).code == 0);
+  const std::string report = content(folder / "s/report.html");
+  const std::string hash = sha256(content(folder / "s/case.toml"));
+  for (const std::string& part :
+       {std::string("<dt>Run</dt><dd>2001-02-03 04:05 UTC</dd>"), std::string("<dt>Revision</dt><dd>B</dd>"),
+        std::string("<dt>Author</dt><dd>A. Naval</dd>"), std::string("<dt>Checked by</dt><dd>–</dd>"),
+        "SHA-256 of case.toml: " + hash, std::string("revision B · 2001-02-03 04:05 UTC"), std::string("° true")})
+    CHECK_THAT(report, Catch::Contains(part));
+  for (const char* file : {"s/history.nc", "s/case.toml"})
+    CHECK(content(folder / file).find(date.substr(0, 10)) == std::string::npos);  // same run, same bytes
 }
 
 TEST_CASE("plan: better than the baseline, the same with one thread and two, and the plan simulates") {

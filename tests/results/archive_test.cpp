@@ -151,6 +151,46 @@ TEST_CASE("the archive is CF: conventions, one time axis with units, valid names
   CHECK(read_archive(folder.file("h.nc")).channels[4].name == "phase_name");
 }
 
+TEST_CASE("texts of an archive have a fixed length and a checksum, and may hold any letters") {
+  truth::SyntheticLift lift;
+  lift.trajectory.phases[1].name = "übergabe — «prøve»";
+  lift.trajectory.phases[2].name = "";
+  const Folder folder;
+  write_archive(lift.trajectory, {"t", "s", "w"}, folder.file("h.nc"));
+  const NetcdfFile file(folder.file("h.nc"), NetcdfFile::Mode::read, "h.nc");
+  int variables = 0, texts = 0;
+  file.check(nc_inq_nvars(file.id(), &variables), "variables");
+  for (int v = 0; v < variables; ++v) {
+    nc_type type = NC_NAT;
+    int checksum = NC_NOCHECKSUM;
+    file.check(nc_inq_vartype(file.id(), v, &type), "type");
+    CHECK(type != NC_STRING);
+    if (type != NC_CHAR) continue;
+    ++texts;
+    file.check(nc_inq_var_fletcher32(file.id(), v, &checksum), "checksum");
+    CHECK(checksum == NC_FLETCHER32);
+  }
+  CHECK(texts == 8);  // three of channels, phases, two of contacts, poses, values at rest
+  const Trajectory back = read_archive(folder.file("h.nc"));
+  CHECK(back.phases[1].name == lift.trajectory.phases[1].name);
+  CHECK(back.phases[2].name.empty());
+}
+
+TEST_CASE("texts of variable length, as archives had them before, are still read") {
+  const Folder folder;
+  {
+    NetcdfFile file(folder.file("old.nc"), NetcdfFile::Mode::create, "old.nc");
+    const int dimension = file.define_dimension("channel", 2);
+    const int variable = file.define("channel_name", NC_STRING, {dimension}, "name");
+    std::array<const char*, 2> names = {"load.x", ""};
+    file.check(nc_put_var_string(file.id(), variable, names.data()), "texts");
+    file.close();
+  }
+  const NetcdfFile file(folder.file("old.nc"), NetcdfFile::Mode::read, "old.nc");
+  CHECK(file.texts("channel_name", 2) == std::vector<std::string>{"load.x", ""});
+  CHECK_THROWS_WITH(file.texts("channel_name", 3), Catch::Contains("old.nc") && Catch::Contains("channel_name"));
+}
+
 TEST_CASE("what is not an archive is refused by name") {
   const Folder folder;
   write_file(folder.file("text.nc"), "not netcdf");

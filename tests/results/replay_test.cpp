@@ -216,3 +216,27 @@ TEST_CASE("a run beyond the budget keeps the peaks of every line") {
   const std::vector<double> time = replay.time();
   CHECK(std::is_sorted(time.begin(), time.end()));
 }
+
+TEST_CASE("the replay opens just before lift-off, and without one where the load begins to be taken over") {
+  truth::SyntheticLift lift;
+  CHECK(replay_of(lift).header["opens"].get<double>() == 85.0);  // lift-off at 90 s
+  Trajectory& run = lift.trajectory;
+  for (const char* wire : {"hoist_port.tension", "hoist_starboard.tension"})
+    for (double& v : run.values[static_cast<std::size_t>(run.find(wire))]) v = 0.0;
+  std::erase_if(run.contacts, [](const ContactEvent& c) { return c.role == ContactSpec::Role::pickup; });
+  if (!std::isfinite(compute_metrics(lift.specification, run).value("lift_off_time")))
+    CHECK(replay_of(lift).header["opens"].get<double>() == 60.0);
+}
+
+TEST_CASE("the scene knows where north is only if the case says so") {
+  const truth::SyntheticLift lift;
+  CHECK(replay_of(lift).header["scene"]["north"].is_null());
+  const Metrics metrics = compute_metrics(lift.specification, lift.trajectory);
+  const std::vector<LimitCheck> checks = check_limits(lift.limits, metrics);
+  const ReportData data{
+      "Lift", "", "", "0.1.0", lift.specification, lift.trajectory, metrics, checks, {}, {}, {}, nullptr,
+      {},     {}, {}, 0.5};
+  const RunView view(lift.specification, lift.trajectory);
+  const Replay replay(replay_text(data, view, build_scene(lift.specification, lift.trajectory), {}));
+  CHECK(replay.header["scene"]["north"].get<double>() == 0.5);
+}

@@ -35,7 +35,7 @@ std::string unbalanced(const std::string& html) {
     const bool closing = html[at + 1] == '/';
     const std::size_t from = at + (closing ? 2 : 1);
     const std::string name = html.substr(from, html.find_first_of(" />", from) - from);
-    if (name == "meta" || name == "link" || name == "br" || html[end - 1] == '/') continue;
+    if (name == "meta" || name == "link" || name == "br" || name == "wbr" || html[end - 1] == '/') continue;
     if (!closing)
       open.push_back(name);
     else if (open.empty() || open.back() != name)
@@ -252,4 +252,155 @@ TEST_CASE("summary.json holds metrics, limits and search, with null for what is 
   CHECK(json["objective"]["random_search"].is_null());
   CHECK(json["search"]["evaluations"] == 60);
   CHECK_FALSE(json.contains("estimates"));
+}
+
+namespace {
+
+/// A page and what it is made of.
+struct Page {
+  truth::SyntheticLift lift;
+  Metrics metrics = compute_metrics(lift.specification, lift.trajectory);
+  std::vector<LimitCheck> checks = check_limits(lift.limits, metrics);
+
+  std::string html(const SearchSection* search = nullptr, std::vector<BasisEntry> basis = {},
+                   std::optional<double> north = {}) const {
+    return without_scripts(report_html({"Lift",
+                                        "",
+                                        "",
+                                        "0.1.0",
+                                        lift.specification,
+                                        lift.trajectory,
+                                        metrics,
+                                        checks,
+                                        {},
+                                        {},
+                                        {},
+                                        search,
+                                        {},
+                                        std::move(basis),
+                                        {},
+                                        north}));
+  }
+};
+
+std::string part_of(const std::string& html, const std::string& from, const std::string& to) {
+  const std::size_t at = html.find(from);
+  return at == std::string::npos ? "" : html.substr(at, html.find(to, at) - at);
+}
+
+}  // namespace
+
+TEST_CASE("loads and procedure come before the design basis, which has no column without a source in it") {
+  const Page page;
+  const std::vector<BasisEntry> bare = {{"bodies.load.mass_t", "1000", ""}, {"solver.time_step_s", "0.05", ""}};
+  const std::string html = page.html(nullptr, bare);
+  const std::size_t loads = html.find("<section id=\"loads\""), procedure = html.find("<section id=\"procedure\""),
+                    basis = html.find("<section id=\"basis\"");
+  CHECK(loads < procedure);
+  CHECK(procedure < basis);
+  REQUIRE(basis != std::string::npos);
+  const std::string table = part_of(html, "<section id=\"basis\"", "</section>");
+  CHECK(table.find("<td>–</td>") == std::string::npos);
+  CHECK(table.find("source, as the case file gives it") == std::string::npos);
+  std::vector<BasisEntry> sourced = bare;
+  sourced[0].source = "weighed";
+  const std::string with = part_of(page.html(nullptr, sourced), "<section id=\"basis\"", "</section>");
+  CHECK_THAT(with, Catch::Contains("source, as the case file gives it") && Catch::Contains("<td>weighed</td>"));
+}
+
+TEST_CASE("the first screen says how much the verdict rests on") {
+  Page page;
+  SeaStateSpec& sea = page.lift.specification.sea.states[0];
+  sea.type = SeaStateSpec::Type::jonswap;
+  sea.significant_height = 1.5;
+  sea.peak_period = 8.0;
+  sea.seed = 7;
+  CHECK_THAT(part_of(page.html(), "id=\"overview\"", "class=\"tiles\""),
+             Catch::Contains("This is one run in one seed of the sea (7)"));
+  SearchSection search = a_search(page.checks);
+  search.shown = "paper_text";
+  std::string first = part_of(page.html(&search), "id=\"overview\"", "class=\"tiles\"");
+  CHECK_THAT(first, Catch::Contains("in all 2 scenarios of the search") &&
+                        Catch::Contains("of one of them, paper text") &&
+                        Catch::Contains("has not been tried in conditions"));
+  CHECK_THAT(first, !Catch::Contains("one seed"));
+  search.certificate = "In 20 fresh conditions the plan breaks offlead_max in 2.";
+  search.certificate_kept = false;
+  first = part_of(page.html(&search), "id=\"overview\"", "class=\"tiles\"");
+  CHECK_THAT(first, Catch::Contains("<b class=\"fail\">Certificate:</b> In 20 fresh conditions the plan breaks"));
+  CHECK_THAT(first, !Catch::Contains("has not been tried"));
+}
+
+TEST_CASE("a plan that its certificate does not bear out is no green verdict") {
+  Page page;
+  page.checks.clear();
+  SearchSection search = a_search(page.checks);
+  CHECK_THAT(page.html(&search), Catch::Contains("<div class=\"verdict\" role=\"status\">"));
+  search.certificate = "It breaks one.";
+  search.certificate_kept = false;
+  CHECK_THAT(page.html(&search),
+             Catch::Contains("<div class=\"verdict warn\" role=\"status\"><strong>Within limits in the search&#39;s "
+                             "conditions, not in fresh ones</strong>"));
+}
+
+TEST_CASE("a search without a point within the limits says so instead of an empty frame") {
+  const Page page;
+  SearchSection search = a_search(page.checks);
+  CHECK_THAT(page.html(&search), Catch::Contains("Convergence: best objective"));
+  for (auto* history : {&search.history, &search.random_history})
+    for (SearchSection::Point& point : *history) point.feasible = false;
+  const std::string html = page.html(&search);
+  CHECK_THAT(html, !Catch::Contains("Convergence: best objective"));
+  CHECK_THAT(html, Catch::Contains("No evaluation was within the limits"));
+}
+
+TEST_CASE("worse but within its limit is not shown in red") {
+  const Page page;
+  SearchSection search = a_search(page.checks);
+  LimitCheck daf;
+  daf.metric = "daf_total";
+  daf.unit = "1";
+  daf.value = 1.02;
+  daf.limit = 1.3;
+  daf.pass = true;
+  search.baseline_limits = search.plan_limits = {daf};
+  search.plan_limits[0].value = 1.03;
+  CHECK_THAT(page.html(&search), Catch::Contains("<span>+0.01 (+1.0 %) worse</span>"));
+  search.plan_limits[0].value = 1.4;
+  search.plan_limits[0].pass = false;
+  CHECK_THAT(page.html(&search), Catch::Contains("<span class=\"fail\">+0.38 (+37.3 %) worse</span>"));
+}
+
+TEST_CASE("waves come from a compass direction where true north is known") {
+  Page page;
+  page.lift.specification.sea.states[0].heading = 0.0;  // towards +x
+  // North along +x: waves towards north come from the south. North along +y (90 deg): +x is east, they come from the
+  // west.
+  CHECK_THAT(page.html(nullptr, {}, 0.0), Catch::Contains("that is from 180° true"));
+  CHECK_THAT(page.html(nullptr, {}, 1.5707963267948966), Catch::Contains("that is from 270° true"));
+  CHECK_THAT(page.html(nullptr, {}, -3.1415926), Catch::Contains("that is from 0° true"));
+  CHECK_THAT(page.html(), !Catch::Contains("° true"));
+}
+
+TEST_CASE("a plot over frequencies shows the periods as well, and small numbers leave its labels short") {
+  Plot plot;
+  plot.x_label = "ω, rad/s";
+  plot.y_label = "m";
+  plot.periods = true;
+  plot.lines = {{"x", {0.0, 0.5, 1.0, 2.0}, {0.0, 1e-7, 3e-7, 4e-7}}};
+  const std::string svg = draw_plot(plot);
+  CHECK_THAT(svg, Catch::Contains(">12.6 s</text>") && Catch::Contains(">6.28 s</text>"));  // 2 pi / 0.5, 2 pi / 1
+  CHECK_THAT(svg, Catch::Contains("ω, rad/s, with the period"));
+  CHECK_THAT(svg, Catch::Contains(">m (in 10⁻⁹)</text>") && Catch::Contains(">400</text>"));
+  CHECK_THAT(svg, !Catch::Contains(">0.000000</text>"));
+}
+
+TEST_CASE("long keys and intervals in tables may be broken, short numbers may not") {
+  const std::string html = table_html({"Estimates",
+                                       "",
+                                       {"parameter", "bounds"},
+                                       {{"bodies.ship.added_mass_t.2, t", "1 000 to 20 000"}, {"x", "4.25"}}});
+  CHECK_THAT(html, Catch::Contains("bodies.<wbr>ship.<wbr>added_<wbr>mass_<wbr>t.<wbr>2, t"));
+  CHECK_THAT(html, Catch::Contains("<td class=\"n wide\">1 000 to 20 000</td>") &&
+                       Catch::Contains("<td class=\"n\">4.25</td>"));
 }

@@ -92,6 +92,20 @@ function memberBody(body) {
   return [bars];
 }
 
+/** An upright column under each hinge that stands clear of the deck. */
+function pedestals(body) {
+  return body.pedestals.map(({from, to, radius}) => {
+    const height = to[2] - from[2];
+    const column = new THREE.Mesh(
+        new THREE.CylinderGeometry(radius, radius, height, 24),
+        new THREE.MeshStandardMaterial({color: COLOURS[body.kind], roughness: 0.85}),
+    );
+    column.rotation.x = Math.PI / 2;
+    column.position.set(from[0], from[1], from[2] + height / 2);
+    return column;
+  });
+}
+
 /** A body's group; update() moves it. */
 export class Body {
   constructor(payload, body) {
@@ -104,6 +118,7 @@ export class Body {
         this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(meshGeometry(payload, body.envelope), EDGE_ANGLE),
           new THREE.LineBasicMaterial({ color: COLOURS[body.kind] })));
       if (body.members.length) this.group.add(...memberBody(body));
+      this.group.add(...pedestals(body));
     }
   }
 

@@ -57,6 +57,12 @@ export class Clock {
   }
 }
 
+/** A number with so many decimals and a proper minus; never "-0.00". */
+export function fixed(value, decimals) {
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212');
+}
+
 /** "1:02:05" from seconds, "2:05" below an hour. */
 export function clockText(seconds) {
   const s = Math.floor(seconds + 1e-6);

@@ -1,29 +1,32 @@
 // The report's live part: scene, timeline and plots around one clock.
 
-import "uplot/dist/uPlot.min.css";
-import "./style.css";
-import { Clock, clockText, SPEEDS } from "./clock.js";
-import { element } from "./element.js";
-import { bindKeys } from "./keys.js";
-import { TENSION_COLOURS } from "./lines.js";
-import { Payload } from "./payload.js";
-import { enlivenFigures, LivePlot } from "./plots.js";
-import { ReplayScene, VIEWS } from "./scene.js";
-import { elevation } from "./sea.js";
-import { describe, Timeline } from "./timeline.js";
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+
+import {Clock, clockText, fixed, SPEEDS} from './clock.js';
+import {element} from './element.js';
+import {bindKeys} from './keys.js';
+import {TENSION_COLOURS} from './lines.js';
+import {Payload} from './payload.js';
+import {enlivenFigures, LivePlot} from './plots.js';
+import {ReplayScene, VIEWS} from './scene.js';
+import {elevation} from './sea.js';
+import {describe, Timeline} from './timeline.js';
 
 const button = (text, label, onclick, more = {}) =>
   element("button", { type: "button", "aria-label": label, title: label, onclick, ...more }, text);
 
-function legend() {
+function legend(touches) {
   const last = TENSION_COLOURS[TENSION_COLOURS.length - 1][0];
   const stops = TENSION_COLOURS.map(([at, colour]) => `${colour} ${((100 * at) / last).toFixed(0)}%`).join(",");
   const mark = (at, text) => element("span", { style: `left:${((100 * at) / last).toFixed(1)}%` }, text);
   return element(
-    "div", { class: "legend" },
-    element("div", {}, "Wire tension ÷ static"),
-    element("div", { class: "scale", style: `background:linear-gradient(90deg,${stops})` }),
-    element("div", { class: "scale-marks" }, mark(0, "0"), mark(0.5, "0.5"), mark(1, "1"), mark(1.5, "1.5")),
+      'div',
+      {class: 'legend'},
+      element('div', {}, 'Wire tension ÷ static'),
+      element('div', {class: 'scale', style: `background:linear-gradient(90deg,${stops})`}),
+      element('div', {class: 'scale-marks'}, mark(0, '0'), mark(0.5, '0.5'), mark(1, '1'), mark(1.5, '1.5')),
+      ...(touches ? [element('div', {class: 'ring'}, 'something touches')] : []),
   );
 }
 
@@ -53,7 +56,9 @@ function buildStage(root, payload, clock) {
   };
   const readings = element("dl", { class: "readings" });
   const event = element("div", { class: "event", role: "status" });
-  stage.replaceChildren(canvas, readings, event, legend(), element("div", { class: "views", role: "toolbar", "aria-label": "Views" }, ...views, follow));
+  stage.replaceChildren(
+      canvas, readings, event, legend(scene.contacts.length > 0),
+      element('div', {class: 'views', role: 'toolbar', 'aria-label': 'Views'}, ...views, follow));
   canvas.addEventListener("focus", () => (scene.controls.enableZoom = true));
   canvas.addEventListener("blur", () => (scene.controls.enableZoom = false));
   canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
@@ -63,10 +68,13 @@ function buildStage(root, payload, clock) {
   clock.listen(({ time }) => {
     scene.update(time);
     const place = payload.place(time);
-    const rows = payload.header.readings.map(({ label, unit, decimals, series }) =>
-      [label, `${payload.value(series, place).toFixed(decimals).replace("-", "\u2212")} ${unit}`]);
+    const rows = payload.header.readings.map(
+        ({label,
+          unit,
+          decimals,
+          series}) => [label, `${fixed(payload.value(series, place), decimals)}${unit === '°' ? '' : ' '}${unit}`]);
     readings.replaceChildren(...rows.flatMap(([k, v]) => [element("dt", {}, k), element("dd", {}, v)]));
-    const near = payload.header.contacts.find((c) => Math.abs(time - c.time) < 1 && c.kind !== "at rest at the start");
+    const near = scene.touching(time);
     const text = near ? describe(near) : "";
     if (event.textContent !== text) event.textContent = text;
   });
@@ -145,6 +153,7 @@ async function start() {
   const payload = await Payload.read(text);
   const { time } = payload;
   const clock = new Clock(time[0], time[time.length - 1]);
+  clock.set(payload.header.opens);
   const jump = (contact) => {
     clock.toggle(false);
     clock.set(contact.time);

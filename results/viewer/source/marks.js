@@ -1,9 +1,11 @@
-// Marks that tell directions and names: the world's x axis, where the waves go, the bow of each vessel, names of bodies.
+// Marks that tell directions and names: the world's x axis, true north, where the waves go, the bow of each vessel,
+// names of bodies.
 
 import * as THREE from "three";
 
 const INK = "#1c2329";
 const WAVES = "#0b5fa5";
+const NORTH = '#8c0018';
 const BOW = "#f2f2ec";
 const SAME_DIRECTION = 0.5; // rad, partitions closer than this share an arrow
 
@@ -23,9 +25,9 @@ function label(text, height, colour) {
   context.strokeText(text, 12, canvas.height / 2);
   context.fillStyle = colour;
   context.fillText(text, 12, canvas.height / 2);
-  const sprite = new THREE.Sprite(
-    new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), depthTest: false, transparent: true }),
-  );
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;  // or dark letters come out grey
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map: texture, depthTest: false, transparent: true}));
   sprite.renderOrder = 6;
   sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
   return sprite;
@@ -43,7 +45,7 @@ function arrow(from, heading, length, colour, text) {
   );
   mesh.renderOrder = 4;
   mesh.rotation.z = heading;
-  const name = label(text, 0.24 * length, colour);
+  const name = label(text, 0.3 * length, colour);
   name.position.set(1.25 * length * Math.cos(heading), 1.25 * length * Math.sin(heading), 0);
   group.add(mesh, name);
   group.position.copy(from);
@@ -71,20 +73,24 @@ export function waveHeadings(components) {
   return found.filter((f) => f.energy > 0.1 * largest).map((f) => f.heading);
 }
 
-/** Arrows beside the scene, on the water: the world's x axis and the waves. */
-export function directions(components, box) {
+/** Arrows beside the scene, on the water: the world's x axis, true north (rad from +x) where it is known, the waves. */
+export function directions(components, north, box) {
   const group = new THREE.Group();
   const size = box.getSize(new THREE.Vector3());
   const length = Math.max(6, 0.14 * Math.hypot(size.x, size.y));
   const corner = new THREE.Vector3(box.min.x - 0.3 * length, box.min.y - 0.5 * length, 0.3);
-  group.add(arrow(corner, 0, length, INK, "x"));
+  group.add(arrow(corner, 0, length, INK, '+x'));
+  if (north !== null) group.add(arrow(corner, north, length, NORTH, 'N'));
   const away = corner.clone().add(new THREE.Vector3(1.9 * length, 0, 0));
   for (const heading of waveHeadings(components)) group.add(arrow(away, heading, length, WAVES, "waves"));
   return group;
 }
 
-/** A wedge on deck that points to the bow (+x of the body), for a body that floats, and the body's name above it. */
-export function bodyMarks({ body, group }) {
+/**
+ * A wedge on deck that points to the bow (+x of the body), for a body that floats, and the body's name above it; all
+ * names are of one height, a share of the scene's `size`.
+ */
+export function bodyMarks({body, group}, sceneSize) {
   const box = group.children[0]?.geometry?.boundingBox;
   if (!box || !body.mesh || (!body.floats && body.kind !== "load")) return;
   const size = box.getSize(new THREE.Vector3());
@@ -100,7 +106,7 @@ export function bodyMarks({ body, group }) {
     mark.position.set(box.max.x - 0.02 * size.x, middle.y, box.max.z + 0.05);
     group.add(mark);
   }
-  const name = label(body.name, Math.max(2.2, 0.05 * Math.hypot(size.x, size.y)), INK);
-  name.position.set(middle.x, middle.y, box.max.z + 0.06 * Math.hypot(size.x, size.y));
+  const name = label(body.name, 0.03 * sceneSize, INK);
+  name.position.set(middle.x, middle.y, box.max.z + 0.02 * sceneSize);
   group.add(name);
 }

@@ -15,7 +15,7 @@ function decimals(step) {
   return 6;
 }
 
-const minus = (text) => text.replace("-", "\u2212");
+const minus = (text) => (Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212'));
 
 /** A limit or range counts for the axis when it does not squeeze the data into less than 40 % of the height. */
 function axisRange(plot) {

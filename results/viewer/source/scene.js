@@ -53,6 +53,7 @@ export class ReplayScene {
   constructor(canvas, payload) {
     this.payload = payload;
     this.data = payload.header.scene;
+    this.contacts = payload.header.contacts.filter((c) => c.kind !== 'at rest at the start');
     const coarse = drawsInSoftware();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !coarse, preserveDrawingBuffer: true });
     this.renderer.setClearColor(SKY);
@@ -78,8 +79,8 @@ export class ReplayScene {
     this.size = box.getSize(new THREE.Vector3()).length();
     this.sea = new Sea(this.data.sea, this.middle, SKY, coarse ? 72 : 144);
     this.scene.add(this.sea.mesh);
-    this.scene.add(directions(this.data.sea.components, box));
-    for (const body of this.bodies) bodyMarks(body);
+    this.scene.add(directions(this.data.sea.components, this.data.north, box));
+    for (const body of this.bodies) bodyMarks(body, this.size);
     this.load = this.bodies.find(({ body }) => body.kind === "load") ?? this.bodies[0];
     this.#addTarget();
     this.#addFlash();
@@ -132,6 +133,11 @@ export class ReplayScene {
     outline.computeLineDistances();
     outline.position.copy(target).sub(new THREE.Vector3(...this.data.load_reference));
     this.scene.add(outline);
+  }
+
+  /** The contact that is shown at t: one that begins within a second; what rests at the start is none. */
+  touching(t) {
+    return this.contacts.find((c) => Math.abs(t - c.time) < 1);
   }
 
   /** What shows a contact for a moment. */
@@ -226,7 +232,7 @@ export class ReplayScene {
     this.wires.update(this.payload, place, t, this.bodies);
     this.moorings.update(this.payload, place, this.bodies);
     this.sea.update(t);
-    const contact = this.payload.header.contacts.find((c) => Math.abs(t - c.time) < 1);
+    const contact = this.touching(t);
     this.flash.visible = contact !== undefined;
     if (contact) this.flash.position.set(...contact.place);
     if (this.followed) {

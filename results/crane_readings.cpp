@@ -1,0 +1,133 @@
+#include "results/crane_readings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/html.h"
+#include "sim/crane_parts.h"
+#include "sim/spatial/constants.h"
+#include "sim/spatial/pose.h"
+
+namespace stillhook {
+namespace {
+
+constexpr double kUprightAxis = 0.7;                        // an axis closer to the vertical than 45 deg slews
+constexpr double kSameRadius = 0.25, kSameElevation = 0.5;  // m and deg: booms no further apart go together
+
+/// Where a point of a body goes; empty if the body was not recorded.
+std::vector<Vector3> path_of(const RunView& view, const std::string& body, const Vector3& point) {
+  std::vector<Vector3> path;
+  if (body == "world") return std::vector<Vector3>(view.run().time.size(), point);
+  const auto x = view.series(body + ".x"), y = view.series(body + ".y"), z = view.series(body + ".z"),
+             roll = view.series(body + ".roll"), pitch = view.series(body + ".pitch"), yaw = view.series(body + ".yaw");
+  if (x.empty() || y.empty() || z.empty() || roll.empty() || pitch.empty() || yaw.empty()) return path;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    path.push_back(Vector3(x[i], y[i], z[i]) + rotation_from({roll[i], pitch[i], yaw[i]}) * point);
+  return path;
+}
+
+const JointSpec* joint_below(const Specification& s, const std::string& body) {
+  const auto found = std::find_if(s.joints.begin(), s.joints.end(), [&](auto& j) { return j.child == body; });
+  return found == s.joints.end() ? nullptr : &*found;
+}
+
+/// The joint that the boom slews about: the first upright one on the way down to its vessel.
+const JointSpec* slewing_joint(const Specification& s, const std::string& boom) {
+  std::string body = boom;
+  for (std::size_t step = 0; step <= s.joints.size(); ++step) {
+    const JointSpec* joint = joint_below(s, body);
+    if (!joint) return nullptr;
+    if (joint->type == JointSpec::Type::revolute && joint->axis.norm() > 0.0 &&
+        std::abs(joint->axis.normalized().z()) > kUprightAxis)
+      return joint;
+    body = joint->parent;
+  }
+  return nullptr;
+}
+
+struct Boom {
+  std::string name, vessel;
+  std::vector<std::string> wires;
+  std::vector<double> radius, elevation;  // m, deg; empty for a boom without a hinge
+};
+
+Vector3 mean_wire_end(const Specification& s, const std::string& boom) {
+  Vector3 sum = Vector3::Zero();
+  int count = 0;
+  for (const WireSpec& wire : s.wires)
+    if (wire.role == WireSpec::Role::hoist && wire.from == boom) sum += wire.point_from, ++count;
+  return count > 0 ? Vector3(sum / count) : sum;
+}
+
+Boom boom_along(const RunView& view, const std::string& name) {
+  const Specification& s = view.specification();
+  Boom boom{name, vessel_under(s, name), hoist_wires_of(s, name), {}, {}};
+  const JointSpec* hinge = joint_below(s, name);
+  if (!hinge) return boom;
+  const JointSpec* slewing = slewing_joint(s, name);
+  const JointSpec* about = slewing ? slewing : hinge;
+  const std::vector<Vector3> ends = path_of(view, name, mean_wire_end(s, name)),
+                             hinges = path_of(view, hinge->parent, hinge->point_on_parent),
+                             axes = path_of(view, about->parent, about->point_on_parent);
+  if (ends.empty() || hinges.size() != ends.size() || axes.size() != ends.size()) return boom;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    boom.radius.push_back((ends[i] - axes[i]).head<2>().norm());
+    const Vector3 along = ends[i] - hinges[i];
+    boom.elevation.push_back(std::atan2(along.z(), along.head<2>().norm()) / kDegree);
+  }
+  return boom;
+}
+
+bool together(const Boom& a, const Boom& b) {
+  if (a.vessel != b.vessel || a.radius.size() != b.radius.size()) return false;
+  for (std::size_t i = 0; i < a.radius.size(); ++i)
+    if (std::abs(a.radius[i] - b.radius[i]) > kSameRadius || std::abs(a.elevation[i] - b.elevation[i]) > kSameElevation)
+      return false;
+  return true;
+}
+
+std::vector<double> sum_of_tensions(const RunView& view, const std::vector<std::string>& wires) {
+  std::vector<double> sum;
+  for (const std::string& wire : wires) {
+    const auto tension = view.series(wire + ".tension");
+    if (tension.empty()) continue;
+    sum.resize(tension.size(), 0.0);
+    for (std::size_t i = 0; i < tension.size(); ++i) sum[i] += tension[i] / (1000.0 * kStandardGravity);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<CraneReading> crane_readings(const RunView& view) {
+  const Specification& s = view.specification();
+  std::vector<Boom> cranes;
+  std::vector<std::string> all;
+  for (const std::string& name : boom_bodies(s)) {
+    Boom boom = boom_along(view, name);
+    all.insert(all.end(), boom.wires.begin(), boom.wires.end());
+    const auto same = std::find_if(cranes.begin(), cranes.end(), [&](const Boom& c) { return together(c, boom); });
+    if (same == cranes.end())
+      cranes.push_back(std::move(boom));
+    else
+      same->wires.insert(same->wires.end(), boom.wires.begin(), boom.wires.end());
+  }
+  std::vector<CraneReading> out;
+  const auto add = [&](std::string label, const char* unit, int decimals, std::vector<double> values) {
+    if (!values.empty()) out.push_back({std::move(label), unit, decimals, std::move(values)});
+  };
+  const bool several = cranes.size() > 1;
+  add("hook load", "t", 0, sum_of_tensions(view, all));
+  for (Boom& crane : cranes) {
+    // A crane is called after its vessel, unless it shares that with another.
+    const auto beside = std::count_if(cranes.begin(), cranes.end(), [&](auto& c) { return c.vessel == crane.vessel; });
+    const std::string of =
+        several ? " " + readable_name(beside > 1 || crane.vessel == "world" ? crane.name : crane.vessel) : "";
+    if (several) add("hook load" + of, "t", 0, sum_of_tensions(view, crane.wires));
+    add("radius" + of, "m", 1, std::move(crane.radius));
+    add("boom angle" + of, "°", 1, std::move(crane.elevation));
+  }
+  return out;
+}
+
+}  // namespace stillhook
