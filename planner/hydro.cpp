@@ -36,7 +36,7 @@ std::vector<std::vector<int>> groups_of(const Specification& spec) {
   std::vector<std::vector<int>> groups;
   for (const std::vector<std::size_t>& together : coupled_hulls(spec.bodies)) {
     const Kind kind = spec.bodies[together.front()].hydrodynamics.kind;
-    if (kind != Kind::none && kind != Kind::constant) groups.emplace_back(together.begin(), together.end());
+    if (kind != Kind::none && kind != Kind::constant && kind != Kind::rao) groups.emplace_back(together.begin(), together.end());
   }
   return groups;
 }
@@ -160,7 +160,7 @@ double estimated_seconds(const HydroSet& set) {
     // The images of a panel in the planes of symmetry serve all classes.
     work += n * kPair * (H + F) * (H + F);
     work += n * (8.0 / 3.0 * H * H * H + 2.0 * H * H * F + 2.0 * H * F * F);
-    work += n * kUsualIterations * 4.0 * F * F * columns_at_once(band, static_cast<int>(set.bodies.size()));  // two products of complex columns
+    work += n * kUsualIterations * 4.0 * F * F * columns_of(band, static_cast<int>(set.bodies.size()));  // two products of complex columns
   }
   constexpr double kIdle = 1.6;  // threads wait for each other, and for memory
   return kIdle * work / (measured_speed() * omp_get_max_threads());

@@ -56,7 +56,7 @@ std::vector<ReportTable> vessel_tables(const Model& model, const std::vector<Sta
   std::vector<ReportTable> tables;
   const std::vector<BodySpec>& bodies = model.specification().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].hull.shape == HullSpec::Shape::none) continue;
+    if (!bodies[i].floats()) continue;
     ReportTable table;
     table.title = "Hull of " + bodies[i].name;
     table.note =

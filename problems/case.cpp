@@ -55,6 +55,7 @@ Case read_case_text(const std::string& text, const std::string& name, const std:
   check_names(c, root, reader.references(), findings);
   findings.throw_if_any();  // what follows takes every key and name for good
   check_lift(c, root, findings);
+  check_stations(c, root, findings);
   check_plan(c, root, findings);
   check_varied_moves(c, root, findings);
   check_fit(c, root, findings);

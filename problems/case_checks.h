@@ -16,6 +16,9 @@ void check_names(const Case& c, const Node& root, const std::vector<NamedThing>&
 /// Mass and inertia, self references, drives of the wrong kind or without anything to move, gear, phases, goals.
 void check_lift(const Case& c, const Node& root, Findings& findings);
 
+/// Moorings and springs to the world; vessels that move by displacement RAOs, and what cannot be with them.
+void check_stations(const Case& c, const Node& root, Findings& findings);
+
 /// Metrics that exist, variables that lead to a number between their bounds, scenarios.
 void check_plan(const Case& c, const Node& root, Findings& findings);
 

@@ -112,7 +112,7 @@ class LiftCheck {
 
   void check_panel_method() {
     const PanelMethodSpec& p = spec_.panel_method;
-    if (p.highest <= p.lowest)
+    if (p.highest > 0.0 && p.highest <= p.lowest)
       report("panel_method", "highest_rad_per_s",
              fmt::format("must be above lowest_rad_per_s = {:.6g}, got {:.6g}", p.lowest, p.highest));
     if (p.direct_highest <= p.direct_lowest)
@@ -124,7 +124,7 @@ class LiftCheck {
   void check_hull(const BodySpec& body, const std::string& entry) {
     using Kind = HydrodynamicsSpec::Kind;
     const HydrodynamicsSpec& h = body.hydrodynamics;
-    if (body.hull.shape == HullSpec::Shape::none && h.kind != Kind::none)
+    if (body.hull.shape == HullSpec::Shape::none && h.kind != Kind::none && h.kind != Kind::rao)
       report(entry + ".hydrodynamics", "kind", "needs a [bodies.hull] of the same body");
     check_coupling(body, entry + ".hydrodynamics");
     if (h.kind == Kind::constant) {
@@ -178,10 +178,6 @@ class LiftCheck {
 
   void check_mooring(const MooringSpec& m) {
     const std::string entry = "moorings." + m.name;
-    if (m.type == MooringSpec::Type::catenary && !(spec_.sea.depth > 0.0))
-      report(entry, "type", "\"catenary\" needs sea.depth_m");
-    if (m.type == MooringSpec::Type::catenary && !(m.pretension > 0.0))
-      report(entry, "pretension_kN", "must be > 0 kN, got 0");
     if (m.tow.empty()) {
       if (m.tow_direction.norm() > 0.0) report(entry, "tow_direction", "needs tow, the drive that moves the far end");
       return;

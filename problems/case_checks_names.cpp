@@ -92,6 +92,7 @@ void check_shared_names(const Specification& s, const Node& root, Findings& find
   claim("wires", names_in(s.wires));
   claim("taglines", names_in(s.taglines));
   claim("moorings", names_in(s.moorings));
+  claim("restoring", names_in(s.restoring));
   claim("contacts", names_in(s.contacts));
 }
 

@@ -11,11 +11,14 @@ const Table& case_table();
 
 const Table& sea_table();
 const Table& body_table();
+const Table& hydrodynamics_table();
+const Table& rao_table();
 const Table& joint_table();
 const Table& drive_table();
 const Table& wire_table();
 const Table& tagline_table();
 const Table& mooring_table();
+const Table& restoring_table();
 const Table& contact_table();
 const Table& ballast_table();
 const Table& operation_table();

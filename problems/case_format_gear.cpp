@@ -155,19 +155,30 @@ const Table& mooring_table() {
     t.text("body", &S::body, "Body that it holds.").names(Reference::body).require();
     t.vector("fairlead_m", &S::fairlead, unit::m, any_value(), "Fairlead in the body frame.").require();
     t.number("azimuth_deg", &S::azimuth, unit::deg, Range{-360.0, 360.0, false},
-             "Direction from the fairlead to the anchor at the start, from +x, counter-clockwise.")
-        .require();
-    t.number("pretension_kN", &S::pretension, unit::kN, not_negative(), "Horizontal tension at the start.").require();
+             "Direction from the fairlead to the anchor at the start, from +x, counter-clockwise; the anchor then lies "
+             "where the line has its pretension.")
+        .one_of("anchor", true);
+    Field& anchor = t.numbers(
+        "anchor_m", {3}, [](S& s, const std::vector<double>& v) { s.anchor = Vector3(v[0], v[1], v[2]); }, unit::m,
+        any_value(),
+        "Where the far end is instead, in the world: x, y and z above the still water. On the sea bed (z = -depth_m) the "
+        "line may lie beside it, from any other height it hangs free.");
+    anchor.one_of("anchor", true);
+    t.number("pretension_kN", &S::pretension, unit::kN, not_negative(),
+             "Horizontal tension at the start. Of a catenary with anchor_m it follows from length_m and is left out.")
+        .absent("needed but for a catenary with anchor_m");
     t.number("stiffness_kN_per_m", &S::stiffness, unit::kN_per_m, positive(), "Stiffness.")
         .only_when("type", {"linear"})
         .require();
-    t.number("anchor_distance_m", &S::anchor_distance, unit::m, positive(), "Horizontal distance to the far end.")
+    t.number("anchor_distance_m", &S::anchor_distance, unit::m, positive(),
+             "Horizontal distance to the far end; with anchor_m it is left out.")
         .only_when("type", {"linear"})
-        .require();
+        .absent("needed with azimuth_deg");
     t.number("length_m", &S::length, unit::m, positive(), "Unstretched length.")
         .only_when("type", {"catenary"})
         .require();
-    t.number("weight_N_per_m", &S::weight, unit::N_per_m, positive(), "Weight in water.")
+    t.number("weight_N_per_m", &S::weight, unit::N_per_m, any_value(),
+             "Weight in water; below 0 the line is buoyant and rises from its anchor.")
         .only_when("type", {"catenary"})
         .require();
     t.number("axial_stiffness_kN", &S::axial_stiffness, unit::kN, positive(), "EA.")

@@ -85,7 +85,7 @@ const Table& move_table() {
         "period better.");
     t.number(
          "shaper_period_s", [](S& s) -> double& { return s.profile.shaper_period; }, unit::s, not_negative(),
-         "Natural period of the swing; 0 = of the pendulum on the hoist falls at their mean length during the move.")
+         "Natural period of the swing; 0 = of the load as it hangs, along the move, the mean of before and after it.")
         .only_when("shaper", {"zv", "zvd"});
     t.number(
          "shaper_damping", [](S& s) -> double& { return s.profile.shaper_damping; }, unit::one, between(0.0, 0.9),
@@ -264,6 +264,14 @@ const Table& case_table() {
     };
     t.name("name", &S::name, "Name of the case; run folders are named after it.");
     t.text("title", &S::title, "A line for reports.").absent("the name");
+    t.text("project", &S::project, "Project, for the head of reports.").absent("not given");
+    t.text("revision", &S::revision, "Revision of the document, for the head of reports.").absent("not given");
+    t.text("author", &S::author, "Who made it, for the head of reports.").absent("not given");
+    t.text("checked_by", &S::checked_by, "Who checked it, for the head of reports.").absent("not given");
+    t.number("north_deg", &S::north, unit::deg, Range{-360.0, 360.0, false},
+             "Where true north lies, counter-clockwise from +x: an arrow in the replay and compass directions of waves "
+             "in reports. It changes no result.")
+        .absent("not known");
     t.table("sea", spec(&Specification::sea), &sea_table, "The water and its waves.").absent("calm, deep sea water");
     t.tables("bodies", spec(&Specification::bodies), "name", &body_table, "Rigid bodies.").require();
     t.table("panel_method", spec(&Specification::panel_method), &panel_method_table, "Coefficients of hulls.")
@@ -273,6 +281,9 @@ const Table& case_table() {
     t.tables("wires", spec(&Specification::wires), "name", &wire_table, "Wires.").absent("none");
     t.tables("taglines", spec(&Specification::taglines), "name", &tagline_table, "Taglines.").absent("none");
     t.tables("moorings", spec(&Specification::moorings), "name", &mooring_table, "Moorings.").absent("none");
+    t.tables("restoring", spec(&Specification::restoring), "name", &restoring_table,
+             "Linear springs to the world.")
+        .absent("none");
     t.tables("contacts", spec(&Specification::contacts), "name", &contact_table, "Contacts.").absent("none");
     t.tables("ballast", spec(&Specification::ballast), "name", &ballast_table, "Ballast transfers.").absent("none");
     t.table("operation", spec(&Specification::operation), &operation_table, "The operation.").require();

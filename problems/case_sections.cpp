@@ -8,7 +8,12 @@ namespace {
 
 constexpr std::array kSections = {
     CaseSection{"name", false, true},
-    CaseSection{"title", false, false},  // of reports
+    CaseSection{"title", false, false},  // of reports, like the next five
+    CaseSection{"project", false, false},
+    CaseSection{"revision", false, false},
+    CaseSection{"author", false, false},
+    CaseSection{"checked_by", false, false},
+    CaseSection{"north_deg", false, false},
     CaseSection{"sea", true, true},
     CaseSection{"bodies", true, true},
     CaseSection{"panel_method", true, true},
@@ -17,6 +22,7 @@ constexpr std::array kSections = {
     CaseSection{"wires", true, true},
     CaseSection{"taglines", true, true},
     CaseSection{"moorings", true, true},
+    CaseSection{"restoring", true, true},
     CaseSection{"contacts", true, true},
     CaseSection{"ballast", true, true},
     CaseSection{"operation", true, true},

@@ -78,6 +78,30 @@ void find_splash(const Specification& s, const Operation& operation, std::vector
                              load->hull.shape == HullSpec::Shape::none ? ", and without a hull it has no buoyancy" : ""));
 }
 
+/// A phase that takes the load through the surface and a good way beyond: the static load of its moments, which goes
+/// evenly from that of one end to that of the other, is then not the load's.
+void find_long_splash(const Specification& s, const Operation& operation, std::vector<std::string>& gaps) {
+  // In heights of the load: a phase of one follows the buoyancy nearly evenly, and a tenth is close enough to the surface.
+  constexpr double kBeyond = 1.5, kClose = 0.1;
+  const auto load =
+      std::find_if(s.bodies.begin(), s.bodies.end(), [&](const BodySpec& b) { return b.name == s.operation.load; });
+  if (load == s.bodies.end() || load->hull.shape == HullSpec::Shape::none) return;
+  const std::size_t index = static_cast<std::size_t>(load - s.bodies.begin());
+  for (std::size_t p = 1; p < operation.static_poses.size(); ++p) {
+    if (index >= operation.static_poses[p].bodies.size()) return;
+    const auto [low_before, high_before] = heights(s, *load, operation.static_poses[p - 1].bodies[index]);
+    const auto [low_after, high_after] = heights(s, *load, operation.static_poses[p].bodies[index]);
+    const double height = high_after - low_after;
+    const bool through = std::min(low_before, low_after) < -kClose * height &&
+                         std::max(high_before, high_after) > kClose * height;
+    if (!through || std::abs(low_after - low_before) <= kBeyond * height) continue;
+    gaps.push_back(fmt::format("phase {} takes {} through the surface and beyond: its static load is taken to change "
+                               "evenly over the phase, so daf and slack_ratio_min are wrong there; end one phase where "
+                               "it meets the water and the next where it is under it",
+                               operation.static_poses[p].name, load->name));
+  }
+}
+
 void find_unheld(const Model& model, const Operation& operation, std::vector<std::string>& gaps) {
   const Specification& s = model.specification();
   const std::vector<std::string> vessels = operation_vessels(s);
@@ -85,6 +109,7 @@ void find_unheld(const Model& model, const Operation& operation, std::vector<std
   const std::vector<Mode> modes = natural_modes(model, operation.equilibria.front());
   for (const std::string& vessel : vessels) {
     const int body = model.body_index(vessel);
+    if (s.bodies[static_cast<std::size_t>(body)].moved_by_sea()) continue;
     for (const int axis : {0, 1}) {
       const double period = period_of(modes, body, axis);
       if (!(period > kHeld)) continue;
@@ -97,12 +122,25 @@ void find_unheld(const Model& model, const Operation& operation, std::vector<std
   }
 }
 
+void find_moved_by_sea(const Specification& s, std::vector<std::string>& gaps) {
+  for (const BodySpec& body : s.bodies) {
+    if (!body.moved_by_sea()) continue;
+    gaps.push_back(fmt::format("{} moves by its displacement RAOs alone, about the pose of the case: it does not heel, "
+                               "trim or sink under the lift, its lines and contacts do not hold it, it has no drift, and "
+                               "the load does not change its motions. Where the load weighs more than a few per cent of "
+                               "the vessel, give it a hull",
+                               body.name));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> model_gaps(const Model& model, const Operation& operation) {
   std::vector<std::string> gaps;
   find_shallow_water(model.specification(), gaps);
+  find_moved_by_sea(model.specification(), gaps);
   find_splash(model.specification(), operation, gaps);
+  find_long_splash(model.specification(), operation, gaps);
   find_unheld(model, operation, gaps);
   return gaps;
 }

@@ -41,6 +41,7 @@ inline const Unit kN_s2_per_m2{"kN_s2_per_m2", "kN s2/m2", 1e3};
 inline const Unit kN_m_per_rad{"kN_m_per_rad", "kN m/rad", 1e3};
 inline const Unit kN_m_s_per_rad{"kN_m_s_per_rad", "kN m s/rad", 1e3};
 inline const Unit kN_m_s2_per_rad2{"kN_m_s2_per_rad2", "kN m s2/rad2", 1e3};
+inline const Unit kN_m{"kN_m", "kN/m, kN, kN m", 1e3};
 inline const Unit kN_s_m{"kN_s_m", "kN s/m, kN s, kN m s", 1e3};
 inline const Unit kN_per_deg{"kN_per_deg", "kN/deg", 1e3 / kRadPerDeg};
 inline const Unit kN_s_per_deg{"kN_s_per_deg", "kN s/deg", 1e3 / kRadPerDeg};

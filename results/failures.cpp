@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/deck_corners.h"
 #include "sim/crane_parts.h"
 #include "sim/spatial/constants.h"
 
@@ -53,24 +54,23 @@ void find_capsized(const RunView& view, std::vector<Failure>& failures) {
     }
 }
 
-/// A deck of a box hull that is under water at rest, at the end of a phase.
+/// A deck that is under water at rest, at the end of a phase. Of a mesh hull only what was dry at the start is deck:
+/// its upper half may hold more that faces up (braces of a jacket that a module is set down on).
 void find_flooded(const RunView& view, std::vector<Failure>& failures) {
   const Specification& s = view.specification();
   const std::vector<std::string> vessels = operation_vessels(s);
   const std::vector<PhaseRecord>& phases = view.run().phases;
+  const std::vector<StaticPose>& poses = view.run().static_poses;
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    const HullSpec& hull = s.bodies[b].hull;
-    if (hull.shape != HullSpec::Shape::box ||
-        std::find(vessels.begin(), vessels.end(), s.bodies[b].name) == vessels.end())
-      continue;
-    for (std::size_t p = 0; p < view.run().static_poses.size() && p <= phases.size(); ++p) {
-      const StaticPose& pose = view.run().static_poses[p];
-      if (b >= pose.bodies.size()) break;
+    if (std::find(vessels.begin(), vessels.end(), s.bodies[b].name) == vessels.end()) continue;
+    if (!s.bodies[b].floats()) continue;
+    std::vector<Vector3> deck = deck_corners(s.bodies[b].hull);
+    if (s.bodies[b].hull.shape == HullSpec::Shape::mesh && !poses.empty() && b < poses.front().bodies.size())
+      std::erase_if(deck, [&](const Vector3& corner) { return (poses.front().bodies[b] * corner).z() < 0.0; });
+    for (std::size_t p = 0; p < poses.size() && p <= phases.size(); ++p) {
+      if (b >= poses[p].bodies.size()) break;
       double lowest = std::numeric_limits<double>::infinity();
-      for (const double x : {-0.5, 0.5})
-        for (const double y : {-0.5, 0.5})
-          lowest = std::min(
-              lowest, (pose.bodies[b] * (hull.centre + hull.size.cwiseProduct(Vector3(x, y, 0.5)))).z());
+      for (const Vector3& corner : deck) lowest = std::min(lowest, (poses[p].bodies[b] * corner).z());
       if (!(lowest < 0.0)) continue;
       const double t = p == 0 ? view.start() : phases[p - 1].end;
       failures.push_back({t, fmt::format("{} has no freeboard {}: at rest an edge of its deck is {:.2f} m under water",

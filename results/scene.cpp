@@ -214,8 +214,9 @@ SceneMooring scene_mooring(const Specification& s, const Trajectory& trajectory,
   const Vector3 outward(std::cos(spec.azimuth), std::sin(spec.azimuth), 0.0);
   m.anchor = spec.anchor.value_or(Vector3(fairlead + spec.anchor_distance * outward));
   if (spec.type != MooringSpec::Type::catenary) return m;
-  m.weight = spec.weight;
-  m.hangs_free = spec.weight < 0.0 || (spec.anchor && spec.anchor->z() > -s.sea.depth + 0.05);  // as in mooring.cpp
+  // The drawing knows lines that come up from the bottom; what hangs free or is buoyant it draws straight.
+  const bool from_the_bottom = spec.weight > 0.0 && !(spec.anchor && spec.anchor->z() > -s.sea.depth + 0.05);
+  if (from_the_bottom) m.weight = spec.weight;
   if (spec.anchor) return m;
   const CatenaryLine line{spec.length, spec.weight, spec.axial_stiffness, spec.seabed_friction, true};
   m.anchor = fairlead + catenary_distance(line, spec.pretension, fairlead.z() + s.sea.depth) * outward;

@@ -67,7 +67,7 @@ std::vector<std::string> operation_vessels(const Specification& s) {
       add_once(names, vessel_under(s, contact.surface_body));
   std::erase_if(names, [&](const std::string& name) {
     const BodySpec* body = body_named(s, name);
-    return !body || body->hull.shape == HullSpec::Shape::none;
+    return !body || (body->hull.shape == HullSpec::Shape::none && !body->moved_by_sea());
   });
   return names;
 }

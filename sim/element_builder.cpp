@@ -4,14 +4,14 @@
 #include "sim/lifting/ballast.h"
 #include "sim/lifting/contact.h"
 #include "sim/lifting/mooring.h"
+#include "sim/lifting/restoring.h"
 #include "sim/lifting/tagline.h"
 #include "sim/lifting/wire.h"
 
 namespace stillhook {
 
 BodyPoint ElementBuilder::point(const std::string& body, const Vector3& p_B) const {
-  const int i = model_.body_index(body);
-  return {i, i == kWorld ? p_B : Vector3(p_B - spec().bodies[i].cog)};
+  return ElementSite(model_).point(body, p_B);
 }
 
 double ElementBuilder::end_distance(const WireSpec& w) const {
@@ -66,6 +66,7 @@ std::unique_ptr<const ForceElement> ElementBuilder::mooring(const MooringSpec& m
   o.name = m.name;
   o.type = m.type == MooringSpec::Type::catenary ? MooringOptions::Type::catenary : MooringOptions::Type::linear;
   o.fairlead = point(m.body, m.fairlead);
+  o.anchor = m.anchor;
   o.azimuth = m.azimuth;
   o.pretension = m.pretension;
   o.line.length = m.length;
@@ -78,6 +79,21 @@ std::unique_ptr<const ForceElement> ElementBuilder::mooring(const MooringSpec& m
   o.tow_drive = drive_or_none(m.tow);
   if (o.tow_drive >= 0) o.tow_direction = m.tow_direction.normalized();
   return std::make_unique<const Mooring>(o, now());
+}
+
+std::unique_ptr<const ForceElement> ElementBuilder::restoring(const RestoringSpec& r) const {
+  const BodySpec& body = spec().bodies[static_cast<std::size_t>(model_.body_index(r.body))];
+  RestoringOptions o;
+  o.name = r.name;
+  o.point = point(r.body, r.point);
+  // The given pose, not the one that joints or an equilibrium made of it: the case says where it is at rest.
+  o.rest_R_WB = rotation_from(r.rest_attitude.value_or(body.attitude));
+  o.rest_point = r.rest_point.value_or(Vector3(body.position + rotation_from(body.attitude) * r.point));
+  o.axes = rotation_from({0.0, 0.0, r.axes_heading.value_or(roll_pitch_yaw(o.rest_R_WB).yaw)});
+  o.stiffness = r.stiffness;
+  o.damping = r.damping;
+  o.force_at_rest = r.force_at_rest;
+  return std::make_unique<const Restoring>(o);
 }
 
 std::unique_ptr<const ForceElement> ElementBuilder::contact(const ContactSpec& c) const {

@@ -22,6 +22,7 @@ class ElementBuilder {
   std::unique_ptr<const ForceElement> wire(const WireSpec& w, double unstretched_length) const;
   std::unique_ptr<const ForceElement> tagline(const TaglineSpec& t) const;
   std::unique_ptr<const ForceElement> mooring(const MooringSpec& m) const;
+  std::unique_ptr<const ForceElement> restoring(const RestoringSpec& r) const;
   std::unique_ptr<const ForceElement> contact(const ContactSpec& c) const;
   std::unique_ptr<const ForceElement> ballast(const BallastSpec& b) const;
 

@@ -10,6 +10,8 @@
 #include "sim/hull/heading_frame.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/rao_table.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
@@ -94,6 +96,32 @@ struct LinearResponse::Group {
   }
 };
 
+/// A body that the sea moves, and the rows of its joint to the moving frame.
+struct LinearResponse::SeaMoved {
+  int body;
+  RaoTable table;
+  RaoFrame frame;
+  Vector3 q;                // m, Q in W
+  std::vector<int> rows;    // of C_q
+  Matrix3 R_WH, R_WB;
+  Vector3 to_cog;  // m, from Q, in H
+
+  bool covers(double frequency, double heading) const {
+    constexpr double kWidest = 45.5 * kDegree;  // as in rao_motion.h
+    return frequency >= table.frequencies.front() * (1.0 - 1e-9) && frequency <= table.frequencies.back() * (1.0 + 1e-9) &&
+           table.gap_at(heading - frame.heading) <= kWidest;
+  }
+  ResponseAmplitude::Vector6c motion(double frequency, double heading, double gravity) const {
+    const double k = frequency * frequency / gravity;
+    const Raos X = moved_by(table.between(frequency, heading - frame.heading), to_cog);
+    const Complex wave = std::polar(1.0, k * (q.x() * std::cos(heading) + q.y() * std::sin(heading)));
+    ResponseAmplitude::Vector6c xi;
+    xi << R_WH.cast<Complex>() * Eigen::Vector3cd(X[0], X[1], X[2]) * wave,
+        (R_WB.transpose() * R_WH).cast<Complex>() * Eigen::Vector3cd(X[3], X[4], X[5]) * wave;
+    return xi;
+  }
+};
+
 LinearResponse::~LinearResponse() = default;
 LinearResponse::LinearResponse(LinearResponse&&) noexcept = default;
 
@@ -113,9 +141,8 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
   damping_ = -work.jacobian.damping();
   Z_ = MatrixX::Identity(system.coordinates(), system.coordinates());
   if (system.constraints() > 0) {
-    MatrixX C_q;
-    system.constraint_jacobian(state_, C_q);
-    const Eigen::HouseholderQR<MatrixX> qr(C_q.transpose());
+    system.constraint_jacobian(state_, C_q_);
+    const Eigen::HouseholderQR<MatrixX> qr(C_q_.transpose());
     Z_ = MatrixX(qr.householderQ()).rightCols(system.coordinates() - system.constraints());
   }
   mass_ = MatrixX::Zero(system.coordinates(), system.coordinates());
@@ -126,7 +153,7 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
   for (const std::vector<std::size_t>& together : coupled_hulls(spec.bodies)) {
     std::vector<int> members;
     for (const std::size_t k : together)
-      if (spec.bodies[k].hull.shape != HullSpec::Shape::none) members.push_back(static_cast<int>(k));
+      if (spec.bodies[k].floats()) members.push_back(static_cast<int>(k));
     if (members.empty()) continue;
     Group group;
     group.set = model.coefficients(members.front()).set;
@@ -160,6 +187,35 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     if (h.kind == HydrodynamicsSpec::Kind::constant) group.constant_added_mass = h.added_mass;
     groups_.push_back(std::move(group));
   }
+  for (const Joint& joint : system.joints) {
+    if (!joint.motion) continue;
+    const int k = joint.on_child.body;
+    const BodySpec& body = spec.bodies[static_cast<std::size_t>(k)];
+    if (!body.moved_by_sea()) continue;
+    const RaoFrame frame(body);
+    const Matrix3 R_WB = rotation_from(body.attitude);
+    SeaMoved moved{k,    read_rao_table(body, gravity_), frame, body.position + R_WB * frame.q, {},
+                   R_WB * frame.R_HB.transpose(), R_WB, frame.R_HB * (body.cog - frame.q)};
+    for (int row = 0; row < system.constraints(); ++row)
+      if (system.row_joint(row) == joint.name) moved.rows.push_back(row);
+    lowest_ = std::max(lowest_, moved.table.frequencies.front());
+    highest_ = std::min(highest_, moved.table.frequencies.back());
+    moved_.push_back(std::move(moved));
+  }
+}
+
+Eigen::VectorXcd LinearResponse::carried(double frequency, double heading) const {
+  Eigen::VectorXcd asked = Eigen::VectorXcd::Zero(C_q_.rows());
+  for (const SeaMoved& moved : moved_) {
+    const ResponseAmplitude::Vector6c xi = moved.motion(frequency, heading, gravity_);
+    for (const int row : moved.rows)
+      asked[row] = (C_q_.block<1, 6>(row, 6 * moved.body).cast<Complex>() * xi)(0);
+  }
+  const MatrixX square = C_q_ * C_q_.transpose();
+  const auto factor = square.ldlt();
+  const Eigen::VectorXcd y =
+      factor.solve(asked.real()).cast<Complex>() + Complex(0.0, 1.0) * factor.solve(asked.imag()).cast<Complex>();
+  return C_q_.transpose().cast<Complex>() * y;
 }
 
 MatrixX LinearResponse::potential_mass(double frequency) const {
@@ -176,6 +232,8 @@ MatrixX LinearResponse::potential_damping(double frequency) const {
 }
 
 bool LinearResponse::resolves(double frequency, double heading) const {
+  for (const SeaMoved& moved : moved_)
+    if (!moved.covers(frequency, heading)) return false;
   return std::all_of(groups_.begin(), groups_.end(), [&](const Group& group) {
     return !group.diffraction || group.diffraction->resolves(frequency, heading - group.heading());
   });
@@ -210,7 +268,12 @@ ResponseAmplitude LinearResponse::at(double frequency, double heading) const {
       i * frequency * (damping_ + potential_damping(frequency)).cast<Complex>();
   const Eigen::MatrixXcd Z = Z_.cast<Complex>();
   const Eigen::MatrixXcd reduced = Z.transpose() * dynamic * Z;
-  const Eigen::VectorXcd xi = Z * reduced.partialPivLu().solve(Z.transpose() * excitation(frequency, heading));
+  Eigen::VectorXcd force = excitation(frequency, heading), xi = Eigen::VectorXcd::Zero(force.size());
+  if (!moved_.empty()) {
+    xi = carried(frequency, heading);
+    force -= dynamic * xi;
+  }
+  if (Z.cols() > 0) xi += Z * reduced.partialPivLu().solve(Z.transpose() * force);
   ResponseAmplitude result{frequency, heading, {}};
   for (Eigen::Index k = 0; k < xi.size(); k += 6) result.body.push_back(xi.segment<6>(k));
   return result;

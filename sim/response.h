@@ -9,6 +9,9 @@
 //   A, B   added mass and radiation damping of the hulls; X total first-order excitation (coefficients.h), about each
 //          hull's reference point in its heading frame, T: heading_frame.h
 //
+// A vessel that moves by displacement RAOs (rao_table.h) answers with those: xi = Z y + x_p with the motion x_p of all
+// bodies that its joints carry along, and Z^T [...] x_p on the right.
+//
 // A hull without a coefficient set is excited by the linear Froude-Krylov force alone. Quadratic damping, wires that
 // go slack, friction and the lag of tagline winches are left out. A phase is a lag: a motion with phase p peaks p/w
 // after the crest has passed. (Newman 1977, ch. 6; Faltinsen 1990, ch. 3)
@@ -55,15 +58,18 @@ class LinearResponse {
 
  private:
   struct Group;
+  struct SeaMoved;
 
   MatrixX potential_mass(double frequency) const;     // T^T A T of all
   MatrixX potential_damping(double frequency) const;  // T^T B T of the sets
   Eigen::VectorXcd excitation(double frequency, double heading) const;
+  Eigen::VectorXcd carried(double frequency, double heading) const;  // x_p
 
   const Model& model_;
   SystemState state_;
   std::vector<Group> groups_;
-  MatrixX mass_, damping_, stiffness_, Z_;
+  std::vector<SeaMoved> moved_;
+  MatrixX mass_, damping_, stiffness_, Z_, C_q_;
   double gravity_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
 };
 

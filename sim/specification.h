@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/element_site.h"
 #include "sim/error.h"
 #include "sim/hull/self_check_tolerances.h"
 #include "sim/rao_spec.h"
@@ -373,6 +374,7 @@ struct Specification {
   std::vector<PoseSpec> poses;
   std::vector<ClearanceSpec> clearances;
   SolverSpec solver;
+  std::vector<OwnElement> own_elements;  // of a program that embeds the library; never of a case file
 };
 
 }  // namespace stillhook

@@ -69,6 +69,9 @@ std::string text_of(const char* format, double value) {
   return text;
 }
 
+/// A part of a distance: what rounding leaves of a part that is zero by symmetry is written as 0.
+std::string millimetres(double metres) { return text_of("%.4g", std::round(metres * 1e3) / 1e3 + 0.0); }
+
 class Reasons {
  public:
   Reasons(const Model& model, const SystemState& given, const SystemState& start)
@@ -80,7 +83,7 @@ class Reasons {
   }
 
   std::string why(int body) const {
-    if (spec_.bodies[body].hull.shape != HullSpec::Shape::none && !hangs(body)) return "it floats there";
+    if (spec_.bodies[body].floats() && !hangs(body)) return "it floats there";
     if (const std::string wire = wire_of_another_length(body); !wire.empty()) return wire;
     if (const auto on = stands_on(model_.system(), body, start_))
       return "it stands on " + (*on == kWorld ? std::string("the ground") : "'" + spec_.bodies[*on].name + "'");
@@ -177,8 +180,8 @@ std::vector<std::string> start_pose_notes(const Model& model, const SystemState&
     if (move.norm() <= kNotedMove && turn <= kNotedTurn) continue;
     std::string how;
     if (move.norm() > kNotedMove)
-      how = text_of("%.4g", move.norm()) + " m (" + text_of("%.4g", move.x()) + ", " + text_of("%.4g", move.y()) +
-            ", " + text_of("%.4g", move.z()) + ")";
+      how = text_of("%.4g", move.norm()) + " m (" + millimetres(move.x()) + ", " + millimetres(move.y()) + ", " +
+            millimetres(move.z()) + ")";
     if (turn > kNotedTurn) how += (how.empty() ? "" : " and ") + text_of("%.4g", turn / kDegree) + " deg";
     notes.push_back("bodies." + b.name + ": starts " + how + " from its given pose: " + reasons.why(body));
   }

@@ -11,7 +11,7 @@
 #include "problems/case.h"
 #include "problems/field_table.h"
 #include "sim/spatial/constants.h"
-#include "tuning/csv_cells.h"
+#include "sim/csv_cells.h"
 
 namespace stillhook {
 namespace {

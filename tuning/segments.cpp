@@ -83,6 +83,9 @@ SegmentedRecord::SegmentedRecord(const RecordModel& model, int segments) : recor
   const MeasuredRecord& data = model.data;
   const double step = model.base.specification.solver.time_step;
   if (data.kind == FitRecordSpec::Kind::constant) throw CaseError("a static pull has no segments");
+  const std::vector<BodySpec>& bodies = model.base.specification.bodies;
+  if (std::any_of(bodies.begin(), bodies.end(), [](const BodySpec& b) { return b.moved_by_sea(); }))
+    throw CaseError("[fit] shooting: \"multiple\" needs bodies that can begin a segment anywhere, none that moves by RAOs");
   if (!model.base.specification.joints.empty())
     throw CaseError("[fit] shooting: \"multiple\" needs a lift without joints, whose bodies can begin a segment anywhere");
   for (int k = 0; k <= segments; ++k)

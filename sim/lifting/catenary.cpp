@@ -18,7 +18,14 @@ struct Span {
   double x_H, x_V, z_H, z_V;
 };
 
-bool partly_grounded(const CatenaryLine& line, double V) { return line.on_seabed && V < line.weight * line.length; }
+// A buoyant line upside down: its weight hangs from the anchor, which then is the upper end of the picture.
+CatenaryLine turned_over(CatenaryLine line) {
+  line.weight = -line.weight;
+  line.on_seabed = false;
+  return line;
+}
+
+bool partly_grounded(const CatenaryLine& line, double V) { return line.weight > 0.0 && line.on_seabed && V < line.weight * line.length; }
 
 Span suspended_span(const CatenaryLine& line, double H, double V) {
   const double w = line.weight, L = line.length, EA = line.axial_stiffness;
@@ -131,6 +138,13 @@ bool newton_load(const CatenaryLine& line, double x, double z, double& H, double
 }  // namespace
 
 CatenaryLoad solve_catenary(const CatenaryLine& line, double x, double z, double H_guess, double V_guess) {
+  if (line.weight < 0.0) {
+    CatenaryLoad load = solve_catenary(turned_over(line), x, -z, H_guess, -V_guess);
+    load.V = -load.V;
+    load.stiffness(0, 1) = -load.stiffness(0, 1);
+    load.stiffness(1, 0) = -load.stiffness(1, 0);
+    return load;
+  }
   CatenaryLoad load;
   const double w = line.weight, EA = line.axial_stiffness;
   const double lowest = kLowest * line.length;
@@ -158,11 +172,28 @@ CatenaryLoad solve_catenary(const CatenaryLine& line, double x, double z, double
 }
 
 double catenary_distance(const CatenaryLine& line, double H, double z) {
-  return span_under(line, H, vertical_load(line, H, std::max(z, kLowest * line.length))).x;
+  if (line.weight < 0.0) return catenary_distance(turned_over(line), H, -z);
+  if (line.on_seabed) z = std::max(z, kLowest * line.length);
+  return span_under(line, H, vertical_load(line, H, z)).x;
+}
+
+double catenary_overhang(const CatenaryLine& line, const CatenaryLoad& load) {
+  // The lowest point lies inside the line where the vertical force changes its sign along it. From there to the end with
+  // the vertical force F: (sqrt(H^2 + F^2) - H)/w + F^2/(2 EA w).
+  const double w = std::abs(line.weight), upper = line.weight < 0.0 ? -load.V : load.V;
+  const double at_anchor = upper - w * line.length;
+  if (!(upper > 0.0 && at_anchor < 0.0) || partly_grounded(line, load.V)) return 0.0;
+  const double F = line.weight < 0.0 ? upper : at_anchor;
+  return F * F / (w * (std::hypot(load.H, F) + load.H)) + F * F / (2.0 * line.axial_stiffness * w);
 }
 
 double catenary_energy(const CatenaryLine& line, const CatenaryLoad& load, double x, double z) {
   // U = H x + V z - P with the complementary energy P(H, V): x = dP/dH, z = dP/dV. G is the integral of S over V.
+  if (line.weight < 0.0) {
+    CatenaryLoad turned = load;
+    turned.V = -load.V;
+    return catenary_energy(turned_over(line), turned, x, -z);
+  }
   const double w = line.weight, L = line.length, EA = line.axial_stiffness, H = load.H, V = load.V;
   const auto G = [H](double force) {
     return 0.5 * (force * std::hypot(H, force) + (H > 0.0 ? H * H * std::asinh(force / H) : 0.0));

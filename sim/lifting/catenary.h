@@ -6,6 +6,8 @@
 // Partly on the bottom (V < w L), with LB = L - V/w and m = max(0, LB - H/(mu w)):
 //   x = LB + H/w asinh V/H + H L/EA - mu w/(2 EA) (LB^2 - m^2)
 //   z = (S - H)/w + V^2/(2 EA w)
+// A buoyant line (w < 0) is the same picture upside down: x, H and the length as they are, z and V with the other sign,
+// and nothing lies on the bottom.
 // Slack (x so small that H = 0): the line hangs straight down with the length s, z = s + w s^2/(2 EA), V = w s.
 //
 //   x, z  horizontal and vertical distance of the upper end from the anchor, m      H, V  load there, N
@@ -22,10 +24,11 @@ namespace stillhook {
 
 struct CatenaryLine {
   double length = 0.0;           // m, unstretched, > 0
-  double weight = 0.0;           // N/m, in water, > 0
+  double weight = 0.0;           // N/m, in water; < 0: buoyant
   double axial_stiffness = 0.0;  // N, > 0
   double seabed_friction = 0.0;  // 1, >= 0
-  bool on_seabed = true;         // the anchor lies on a flat seabed; false: the line hangs free below it too
+  bool on_seabed = true;         // the anchor lies on a flat seabed; false: the line hangs free below it too. Of a
+                                 // buoyant line without a meaning
   bool operator==(const CatenaryLine&) const = default;
 };
 
@@ -39,8 +42,11 @@ struct CatenaryLoad {
 /// The equations hold to 1e-12 of the length. With on_seabed, z below 1e-6 of the length counts as that.
 CatenaryLoad solve_catenary(const CatenaryLine& line, double x, double z, double H_guess = 0.0, double V_guess = 0.0);
 
-/// Horizontal distance at which the line, z (m) high, has the horizontal tension H > 0 (N). Anchor on the seabed.
+/// Horizontal distance at which the line, whose upper end is z (m) above the anchor, has the horizontal tension H > 0 (N).
 double catenary_distance(const CatenaryLine& line, double H, double z);
+
+/// How far a line that hangs free sags below its anchor under this load, or a buoyant one rises above its upper end, m.
+double catenary_overhang(const CatenaryLine& line, const CatenaryLoad& load);
 
 /// Elastic energy plus weight above the anchor, J, of the line without friction that carries this load.
 double catenary_energy(const CatenaryLine& line, const CatenaryLoad& load, double x, double z);

@@ -3,46 +3,85 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/number_text.h"
 #include "sim/specification.h"
 
 namespace stillhook {
 
 namespace {
-constexpr double kNearAnchor = 1e-6;  // share of the length below which H is taken linear in x
-}
+constexpr double kNearAnchor = 1e-6;   // share of the length below which H is taken linear in x
+constexpr double kOnTheBottom = 0.05;  // m: an anchor no higher than this lies on the sea bed
+constexpr double kLargestStrain = 0.2;
+constexpr double kStraight = 1e-3;  // m, of a line that would lie at the surface or on the bottom
+}  // namespace
 
 Mooring::Mooring(MooringOptions options, const Instant& initial)
     : ForceElement(options.name), options_(std::move(options)) {
   const MooringOptions& o = options_;
-  const auto require = [&](bool holds, const char* field, const char* rule) {
+  const auto require = [&](bool holds, const char* field, const std::string& rule) {
     if (!holds) throw SpecificationError("moorings." + name(), field, rule);
   };
-  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
-  const PointMotion fairlead = motion_of(o.fairlead, initial);
-  const Vector3 outward(std::cos(o.azimuth), std::sin(o.azimuth), 0.0);
-  if (o.type == MooringOptions::Type::linear) {
-    require(std::isfinite(o.pretension) && o.pretension >= 0.0, "pretension", "must be >= 0 N");
-    require(positive(o.stiffness), "stiffness", "must be > 0 N/m");
-    require(positive(o.anchor_distance), "anchor_distance", "must be > 0 m");
-    anchor_ = fairlead.p + o.anchor_distance * outward;
-  } else {
-    require(positive(o.pretension), "pretension", "a catenary needs a horizontal pretension > 0 N");
-    require(positive(o.line.length), "length", "must be > 0 m");
-    require(positive(o.line.weight), "weight", "must be > 0 N/m");
-    require(positive(o.line.axial_stiffness), "axial_stiffness", "must be > 0 N");
-    require(std::isfinite(o.line.seabed_friction) && o.line.seabed_friction >= 0.0, "seabed_friction", "must be >= 0");
-    require(positive(o.depth), "depth", "a catenary needs a water depth > 0 m");
-    const double height = fairlead.p.z() + o.depth;
-    require(height > 0.0, "fairlead", "must lie above the seabed at the initial pose");
-    const double distance = catenary_distance(o.line, o.pretension, height);
-    require(distance > 0.0, "length", "too short to reach the seabed with this pretension");
-    anchor_ = fairlead.p + distance * outward;
-    anchor_.z() = -o.depth;
-  }
+  const Vector3 fairlead = motion_of(o.fairlead, initial).p;
+  if (o.type == MooringOptions::Type::linear)
+    place_linear(fairlead, require);
+  else
+    place_catenary(fairlead, require);
   if (o.tow_drive >= 0) {
     require(std::abs(o.tow_direction.norm() - 1.0) < 1e-9, "tow_direction", "must be a unit vector");
     anchor_ -= initial.drive[o.tow_drive].position * o.tow_direction;
   }
+}
+
+template <class Require>
+void Mooring::place_linear(const Vector3& fairlead, const Require& require) {
+  MooringOptions& o = options_;
+  require(std::isfinite(o.pretension) && o.pretension >= 0.0, "pretension", "must be >= 0 N");
+  require(std::isfinite(o.stiffness) && o.stiffness > 0.0, "stiffness", "must be > 0 N/m");
+  if (o.anchor) o.anchor_distance = (*o.anchor - fairlead).head<2>().norm();
+  require(std::isfinite(o.anchor_distance) && o.anchor_distance > 0.0, o.anchor ? "anchor" : "anchor_distance",
+          "must be > 0 m from the fairlead, in the horizontal");
+  anchor_ = o.anchor.value_or(
+      Vector3(fairlead + o.anchor_distance * Vector3(std::cos(o.azimuth), std::sin(o.azimuth), 0.0)));
+}
+
+template <class Require>
+void Mooring::place_catenary(const Vector3& fairlead, const Require& require) {
+  MooringOptions& o = options_;
+  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
+  require(positive(o.line.length), "length", "must be > 0 m");
+  require(std::isfinite(o.line.weight) && o.line.weight != 0.0, "weight",
+          "must not be 0: a line as heavy as water is straight, which a wire from \"world\" says, with its stiffness");
+  require(positive(o.line.axial_stiffness), "axial_stiffness", "must be > 0 N");
+  require(std::isfinite(o.line.seabed_friction) && o.line.seabed_friction >= 0.0, "seabed_friction", "must be >= 0");
+  require(positive(o.depth), "depth", "a catenary needs a water depth > 0 m");
+  const bool buoyant = o.line.weight < 0.0;
+  if (o.anchor) {
+    anchor_ = *o.anchor;
+    require(anchor_.z() >= -o.depth - kOnTheBottom, "anchor",
+            "lies " + number_text(-o.depth - anchor_.z()) + " m below the sea bed, which is " + number_text(o.depth) +
+                " m deep");
+    o.line.on_seabed = !buoyant && anchor_.z() <= -o.depth + kOnTheBottom;
+  } else {
+    require(positive(o.pretension), "pretension", "a catenary needs a horizontal pretension > 0 N");
+    const double height = fairlead.z() + o.depth;
+    require(height > 0.0, "fairlead", "must lie above the seabed at the initial pose");
+    const double distance = catenary_distance(o.line, o.pretension, height);
+    require(distance > 0.0, "length", "too short to reach the seabed with this pretension");
+    anchor_ = fairlead + distance * Vector3(std::cos(o.azimuth), std::sin(o.azimuth), 0.0);
+    anchor_.z() = -o.depth;
+  }
+  const Vector3 r = fairlead - anchor_;
+  require(r.norm() <= (1.0 + kLargestStrain) * o.line.length, "length",
+          "is too short: the fairlead is " + number_text(r.norm()) + " m from the anchor, the line is " +
+              number_text(o.line.length) + " m long");
+  const double x = std::max(std::hypot(r.x(), r.y()), kNearAnchor * o.line.length);
+  const double over = catenary_overhang(o.line, solve_catenary(o.line, x, r.z()));
+  require(!buoyant || over <= kStraight || fairlead.z() + over <= 0.0, "length",
+          "the line is buoyant and so long that it would rise above its fairlead and float at the surface, which is not "
+          "modelled: shorten it or move its anchor away, or give it as a linear line");
+  require(buoyant || o.line.on_seabed || anchor_.z() - over >= -o.depth - kStraight, "length",
+          "the line hangs from an anchor above the sea bed and is so long that it would lie on it between its ends, "
+          "which is not modelled: shorten it, or put the anchor on the sea bed where it comes up");
 }
 
 bool Mooring::same_as(const ForceElement& other) const {
@@ -56,10 +95,10 @@ BodyPoint Mooring::anchor_now(const Instant& now) const {
   return point;
 }
 
-Mooring::Load Mooring::linear_load(double x) const {
+Mooring::Load Mooring::linear_load(double x, const Instant& now) const {
   Load load;
   const double H = options_.pretension + options_.stiffness * (x - options_.anchor_distance);
-  if (H <= 0.0) return load;
+  if (now.on(H <= 0.0)) return load;
   load.H = H;
   load.H_x = options_.stiffness;
   load.energy = 0.5 * H * H / options_.stiffness;
@@ -84,10 +123,11 @@ Mooring::Load Mooring::load(const Instant& now, Memory m) const {
   const double x = std::hypot(r.x(), r.y());
   const bool linear = options_.type == MooringOptions::Type::linear;
   const double nearest = kNearAnchor * (linear ? options_.anchor_distance : options_.line.length);
-  const double reach = std::max(x, nearest);
-  Load load = linear ? linear_load(reach) : catenary_load(reach, r.z(), m);
+  const bool near = now.on(x < nearest);
+  const double reach = near ? nearest : x;
+  Load load = linear ? linear_load(reach, now) : catenary_load(reach, r.z(), m);
   load.H_over_x = load.H / reach;
-  if (x < nearest) {
+  if (near) {
     const double share = x / nearest;
     load.H *= share;
     load.H_z *= share;

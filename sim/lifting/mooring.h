@@ -3,13 +3,18 @@
 //   force on the fairlead  F = (H u, -V)        u  horizontal unit vector from the fairlead to the anchor
 //
 // catenary: H(x, z) and V(x, z) from catenary.h, x and z the fairlead's horizontal and vertical distance from the
-//   anchor, which lies on the seabed where the initial pose gives the wanted horizontal tension.
-// linear:   H = max(0, H0 + k (x - x0)), V = 0: never pushes.
+//   anchor. That is where the options say, and then the line's length gives its tension; or on the seabed where the
+//   initial pose gives the wanted horizontal tension. On the seabed the line may lie beside its anchor; from an anchor
+//   above it the line hangs free, and it is refused when it would then reach the bottom in the initial pose. A buoyant
+//   line (weight < 0) rises from its anchor and is refused when it would float at the surface there.
+// linear:   H = max(0, H0 + k (x - x0)), V = 0: never pushes. x0 is the distance of the anchor in the initial pose.
 // The anchor may be moved along a fixed direction by a drive (a tug, or a line that is shifted); the drive then gives
 // the power F . v_anchor. No damping; the energy is the catenary's (without friction) or H^2/(2 k).
 // Within 1e-6 of the length (linear: of x0) of the anchor's vertical H falls linearly to zero, so that its direction
 // does not jump.
 #pragma once
+
+#include <optional>
 
 #include "sim/lifting/catenary.h"
 #include "sim/multibody/point.h"
@@ -21,12 +26,14 @@ struct MooringOptions {
   std::string name;
   Type type = Type::catenary;
   BodyPoint fairlead;
+  std::optional<Vector3> anchor;             // m, in W; absent: from azimuth with pretension or anchor_distance
   double azimuth = 0.0;                      // rad, from the fairlead to the anchor at the initial pose, in W from +x
-  double pretension = 0.0;                   // N, horizontal, at the initial pose; catenary > 0, linear >= 0
+  double pretension = 0.0;                   // N, horizontal, at the initial pose; catenary > 0 without an anchor and
+                                             // 0 with one, linear >= 0
   CatenaryLine line;                         // catenary
   double depth = 0.0;                        // m, catenary: water depth, > 0
   double stiffness = 0.0;                    // N/m, linear: k > 0
-  double anchor_distance = 0.0;              // m, linear: x0 > 0
+  double anchor_distance = 0.0;              // m, linear without an anchor: x0 > 0
   int tow_drive = -1;                        // index of the drive that moves the anchor, m; -1 = fixed
   Vector3 tow_direction = Vector3::UnitX();  // unit vector in W
 
@@ -70,10 +77,14 @@ class Mooring final : public ForceElement {
     double energy = 0.0;                                // J
     Vector3 force() const { return H * u - V * Vector3::UnitZ(); }
   };
+  template <class Require>
+  void place_catenary(const Vector3& fairlead, const Require& require);
+  template <class Require>
+  void place_linear(const Vector3& fairlead, const Require& require);
   BodyPoint anchor_now(const Instant& now) const;
   Load load(const Instant& now, Memory m) const;
   Load catenary_load(double x, double z, Memory m) const;
-  Load linear_load(double x) const;
+  Load linear_load(double x, const Instant& now) const;
 
   MooringOptions options_;
   Vector3 anchor_ = Vector3::Zero();  // m, in W

@@ -19,7 +19,8 @@ bool same_joints(const MultibodySystem& a, const MultibodySystem& b) {
   for (std::size_t j = 0; j < a.joints.size(); ++j) {
     const Joint &p = a.joints[j], &q = b.joints[j];
     if (p.on_parent.c_B != q.on_parent.c_B || p.on_child.c_B != q.on_child.c_B ||
-        p.frame_on_parent != q.frame_on_parent || p.frame_on_child != q.frame_on_child)
+        p.frame_on_parent != q.frame_on_parent || p.frame_on_child != q.frame_on_child ||
+        (p.motion != nullptr) != (q.motion != nullptr) || (p.motion && !p.motion->same_as(*q.motion)))
       return false;
   }
   return true;
@@ -61,6 +62,7 @@ HhtTangent::HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins)
   explicit_.assign(twins_.size(), {VectorX::Zero(system_.coordinates()), VectorX::Zero(system_.constraints()),
                                    VectorX::Zero(states), false});
   by_drive_.resize(system_.elements.size());
+  taken_.resize(system_.elements.size());
   column_.assign(twins_.size(), -1);
   of_history_.assign(static_cast<std::size_t>(states), false);
   for (std::size_t e = 0; e < system_.elements.size(); ++e)

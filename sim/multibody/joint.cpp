@@ -47,14 +47,30 @@ int Joint::rows() const {
   return l.point_rows + static_cast<int>(l.planes.size() + l.squares.size());
 }
 
-Matrix3 Joint::frame(const BodyPoint& side, const Matrix3& on_body, const Instant& now) const {
-  return rotation_of(side.body, now) * on_body;
+Joint::Parent Joint::parent(const Instant& now) const {
+  Parent P;
+  if (!motion) {
+    P.R = rotation_of(on_parent.body, now);
+    P.w = P.R * spin_of(on_parent.body, now);
+    P.point = motion_of(on_parent, now);
+    P.acceleration = centripetal(on_parent, now);
+    return P;
+  }
+  const FrameMotion F = motion->at(now.t);
+  const Vector3 arm = F.R * on_parent.c_B;
+  P.R = F.R;
+  P.w = F.w;
+  P.w_dot = F.w_dot;
+  P.point = {F.p + arm, F.v + F.w.cross(arm)};
+  P.acceleration = F.a + F.w_dot.cross(arm) + F.w.cross(F.w.cross(arm));
+  return P;
 }
 
 void Joint::values(const Instant& now, Rows& C) const {
   const Layout l = layout_of(type);
-  const Vector3 d = motion_of(on_child, now).p - motion_of(on_parent, now).p;
-  const Matrix3 Fp = frame(on_parent, frame_on_parent, now), Fc = frame(on_child, frame_on_child, now);
+  const Parent P = parent(now);
+  const Vector3 d = motion_of(on_child, now).p - P.point.p;
+  const Matrix3 Fp = P.R * frame_on_parent, Fc = rotation_of(on_child.body, now) * frame_on_child;
   int r = 0;
   if (l.point_rows) {
     C.segment<3>(0) = d;
@@ -64,29 +80,30 @@ void Joint::values(const Instant& now, Rows& C) const {
   for (const Square& s : l.squares) C[r++] = Fp.col(s.parent_axis).dot(Fc.col(s.child_axis));
 }
 
-void Joint::jacobian(const Instant& now, Block& parent, Block& child) const {
+void Joint::jacobian(const Instant& now, Block& parent_block, Block& child) const {
   const Layout l = layout_of(type);
-  parent.setZero();
+  parent_block.setZero();
   child.setZero();
-  const Matrix3 Rp = rotation_of(on_parent.body, now), Rc = rotation_of(on_child.body, now);
-  const Vector3 d = motion_of(on_child, now).p - motion_of(on_parent, now).p;
+  const Parent P = parent(now);
+  const Matrix3 &Rp = P.R, Rc = rotation_of(on_child.body, now);
+  const Vector3 d = motion_of(on_child, now).p - P.point.p;
   int r = 0;
   if (l.point_rows) {
-    parent.topRows<3>() = -position_jacobian(on_parent, now);
+    parent_block.topRows<3>() = -position_jacobian(on_parent, now);
     child.topRows<3>() = position_jacobian(on_child, now);
     r = 3;
   }
   for (int i : l.planes) {
     const Vector3 a_P = frame_on_parent.col(i), a = Rp * a_P;
-    parent.row(r).head<3>() = -a.transpose();
-    parent.row(r).tail<3>() = a_P.cross(Rp.transpose() * d + on_parent.c_B).transpose();
+    parent_block.row(r).head<3>() = -a.transpose();
+    parent_block.row(r).tail<3>() = a_P.cross(Rp.transpose() * d + on_parent.c_B).transpose();
     child.row(r).head<3>() = a.transpose();
     child.row(r).tail<3>() = on_child.c_B.cross(Rc.transpose() * a).transpose();
     ++r;
   }
   for (const Square& s : l.squares) {
     const Vector3 a_P = frame_on_parent.col(s.parent_axis), b_C = frame_on_child.col(s.child_axis);
-    parent.row(r).tail<3>() = a_P.cross(Rp.transpose() * (Rc * b_C)).transpose();
+    parent_block.row(r).tail<3>() = a_P.cross(Rp.transpose() * (Rc * b_C)).transpose();
     child.row(r).tail<3>() = b_C.cross(Rc.transpose() * (Rp * a_P)).transpose();
     ++r;
   }
@@ -94,33 +111,55 @@ void Joint::jacobian(const Instant& now, Block& parent, Block& child) const {
 
 void Joint::quadratic_velocity(const Instant& now, Rows& gamma) const {
   const Layout l = layout_of(type);
-  const Matrix3 Rp = rotation_of(on_parent.body, now), Rc = rotation_of(on_child.body, now);
-  const Vector3 wp = spin_of(on_parent.body, now), wc = spin_of(on_child.body, now);
-  const PointMotion P = motion_of(on_parent, now), C = motion_of(on_child, now);
-  const Vector3 d = C.p - P.p, d_dot = C.v - P.v;
-  const Vector3 d_quadratic = centripetal(on_child, now) - centripetal(on_parent, now);
+  const Parent P = parent(now);
+  const Matrix3 Rc = rotation_of(on_child.body, now);
+  const Vector3 wc = spin_of(on_child.body, now);
+  const PointMotion C = motion_of(on_child, now);
+  const Vector3 d = C.p - P.point.p, d_dot = C.v - P.point.v;
+  const Vector3 d_quadratic = centripetal(on_child, now) - P.acceleration;
   int r = 0;
   if (l.point_rows) {
     gamma.segment<3>(0) = -d_quadratic;
     r = 3;
   }
+  const auto turning = [&P](const Vector3& a) { return Vector3(P.w.cross(P.w.cross(a)) + P.w_dot.cross(a)); };
   for (int i : l.planes) {
-    const Vector3 a_P = frame_on_parent.col(i);
-    const Vector3 a_dot = Rp * wp.cross(a_P), a_quadratic = Rp * wp.cross(wp.cross(a_P));
-    gamma[r++] = -(a_quadratic.dot(d) + 2.0 * a_dot.dot(d_dot) + (Rp * a_P).dot(d_quadratic));
+    const Vector3 a = P.R * frame_on_parent.col(i), a_dot = P.w.cross(a);
+    gamma[r++] = -(turning(a).dot(d) + 2.0 * a_dot.dot(d_dot) + a.dot(d_quadratic));
   }
   for (const Square& s : l.squares) {
-    const Vector3 a_P = frame_on_parent.col(s.parent_axis), b_C = frame_on_child.col(s.child_axis);
-    gamma[r++] = -((Rp * wp.cross(wp.cross(a_P))).dot(Rc * b_C) + 2.0 * (Rp * wp.cross(a_P)).dot(Rc * wc.cross(b_C)) +
-                   (Rp * a_P).dot(Rc * wc.cross(wc.cross(b_C))));
+    const Vector3 a = P.R * frame_on_parent.col(s.parent_axis), b_C = frame_on_child.col(s.child_axis);
+    gamma[r++] = -(turning(a).dot(Rc * b_C) + 2.0 * P.w.cross(a).dot(Rc * wc.cross(b_C)) +
+                   a.dot(Rc * wc.cross(wc.cross(b_C))));
   }
+}
+
+void Joint::drift(const Instant& now, Rows& C_t) const {
+  C_t.setZero();
+  if (!motion) return;
+  const Layout l = layout_of(type);
+  const Parent P = parent(now);
+  const Vector3 d = motion_of(on_child, now).p - P.point.p;
+  const Matrix3 Fc = rotation_of(on_child.body, now) * frame_on_child;
+  int r = 0;
+  if (l.point_rows) {
+    C_t.segment<3>(0) = -P.point.v;
+    r = 3;
+  }
+  for (int i : l.planes) {
+    const Vector3 a = P.R * frame_on_parent.col(i);
+    C_t[r++] = P.w.cross(a).dot(d) - a.dot(P.point.v);
+  }
+  for (const Square& s : l.squares)
+    C_t[r++] = P.w.cross(P.R * frame_on_parent.col(s.parent_axis)).dot(Fc.col(s.child_axis));
 }
 
 void Joint::add_stiffness(const Instant& now, const Rows& lambda, JacobianSum& out) const {
   const Layout l = layout_of(type);
   const int p = on_parent.body, c = on_child.body;
-  const Matrix3 Rp = rotation_of(p, now), Rc = rotation_of(c, now);
-  const Vector3 d = motion_of(on_child, now).p - motion_of(on_parent, now).p;
+  const Parent P = parent(now);
+  const Matrix3 &Rp = P.R, Rc = rotation_of(c, now);
+  const Vector3 d = motion_of(on_child, now).p - P.point.p;
   Matrix6 Kpp = Matrix6::Zero(), Kpc = Matrix6::Zero(), Kcp = Matrix6::Zero(), Kcc = Matrix6::Zero();
   int r = 0;
   if (l.point_rows) {
@@ -160,30 +199,29 @@ void Joint::add_stiffness(const Instant& now, const Rows& lambda, JacobianSum& o
 }
 
 double Joint::coordinate(const Instant& now) const {
-  const Matrix3 Fp = frame(on_parent, frame_on_parent, now);
+  const Parent P = parent(now);
+  const Matrix3 Fp = P.R * frame_on_parent;
   if (type == JointSpec::Type::revolute) {
-    const Vector3 e2 = frame(on_child, frame_on_child, now).col(1);
+    const Vector3 e2 = rotation_of(on_child.body, now) * frame_on_child.col(1);
     return std::atan2(Fp.col(2).dot(e2), Fp.col(1).dot(e2));
   }
-  if (type == JointSpec::Type::prismatic)
-    return Fp.col(0).dot(motion_of(on_child, now).p - motion_of(on_parent, now).p);
+  if (type == JointSpec::Type::prismatic) return Fp.col(0).dot(motion_of(on_child, now).p - P.point.p);
   return 0.0;
 }
 
 double Joint::coordinate_rate(const Instant& now) const {
-  const Vector3 e1 = axis(now);
+  const Parent P = parent(now);
+  const Vector3 e1 = P.R * frame_on_parent.col(0);
   if (type == JointSpec::Type::revolute)
-    return e1.dot(rotation_of(on_child.body, now) * spin_of(on_child.body, now) -
-                  rotation_of(on_parent.body, now) * spin_of(on_parent.body, now));
+    return e1.dot(rotation_of(on_child.body, now) * spin_of(on_child.body, now) - P.w);
   if (type == JointSpec::Type::prismatic) {
-    const PointMotion P = motion_of(on_parent, now), C = motion_of(on_child, now);
-    const Vector3 w = rotation_of(on_parent.body, now) * spin_of(on_parent.body, now);
-    return e1.dot(C.v - P.v - w.cross(C.p - P.p));
+    const PointMotion C = motion_of(on_child, now);
+    return e1.dot(C.v - P.point.v - P.w.cross(C.p - P.point.p));
   }
   return 0.0;
 }
 
-Vector3 Joint::axis(const Instant& now) const { return frame(on_parent, frame_on_parent, now).col(0); }
+Vector3 Joint::axis(const Instant& now) const { return parent(now).R * frame_on_parent.col(0); }
 
 Joint make_joint(const JointSpec& spec, int parent, int child, const Vector3& parent_cog, const Vector3& child_cog,
                  const Instant& now) {

@@ -7,14 +7,19 @@
 //   square     a . b = 0               (1 row)   revolute 2 (the paper's Eq. 2), prismatic 3, fixed 3
 //   in plane   a . (p_C - p_P) = 0     (1 row)   prismatic 2
 //
+// The parent's side may be a frame that moves by itself (prescribed_motion.h) instead of a body: C(q, t) = 0. Its rows
+// stay those above, with that frame's pose in them; their rate at a fixed child is drift().
+//
 // Derivatives are with respect to xi = (dp in W, dtheta in B) of each body (see force_element.h). C_q^T lambda stands
 // on the left of the equations of motion, so the joint pushes its child with -lambda.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 
 #include "sim/multibody/point.h"
+#include "sim/multibody/prescribed_motion.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -32,13 +37,17 @@ class Joint {
   BodyPoint on_parent, on_child;
   Matrix3 frame_on_parent = Matrix3::Identity();  // columns e1, e2, e3 in the parent's B
   Matrix3 frame_on_child = Matrix3::Identity();   // the same in the child's B, equal in W at the initial pose
+  std::shared_ptr<const PrescribedMotion> motion;  // of the frame that the parent's side is fixed to, with the parent
+                                                   // the world; null: it is fixed to the parent
 
   int rows() const;
   /// Values of the rows, m for points and planes, 1 for squares.
   void values(const Instant& now, Rows& C) const;
   void jacobian(const Instant& now, Block& parent, Block& child) const;
-  /// -(C_q u)_q u, the right-hand side of the acceleration constraint.
+  /// The right-hand side of the acceleration constraint: -(C_q u)_q u, and what the prescribed motion adds to it.
   void quadratic_velocity(const Instant& now, Rows& gamma) const;
+  /// Rate of the rows with the child at rest: zero without a prescribed motion.
+  void drift(const Instant& now, Rows& C_t) const;
   /// Subtracts d(C_q^T lambda)/dxi from the stiffness (the stiffness of -C_q^T lambda).
   void add_stiffness(const Instant& now, const Rows& lambda, JacobianSum& out) const;
 
@@ -50,7 +59,14 @@ class Joint {
   Vector3 axis(const Instant& now) const;
 
  private:
-  Matrix3 frame(const BodyPoint& side, const Matrix3& on_body, const Instant& now) const;
+  /// What the parent's side is fixed to: a body, the world, or a frame with a motion of its own. Rotations in W.
+  struct Parent {
+    Matrix3 R = Matrix3::Identity();
+    Vector3 w = Vector3::Zero(), w_dot = Vector3::Zero();  // rad/s, rad/s2; w_dot of a prescribed motion only
+    PointMotion point;                                     // the joint point
+    Vector3 acceleration = Vector3::Zero();  // m/s2, of the joint point at zero dv, dw of a body
+  };
+  Parent parent(const Instant& now) const;
 };
 
 /// A joint between bodies (kWorld allowed for the parent) whose frames agree at `now`.

@@ -200,6 +200,19 @@ void MultibodySystem::joint_reaction(const SystemState& state, int j, Vector3& f
   moment = b.R_WB * Q.tail<3>() - (b.R_WB * joints[j].on_child.c_B).cross(force);
 }
 
+double MultibodySystem::prescribed_power(const SystemState& state) const {
+  const Instant now = state.instant();
+  double power = 0.0;
+  std::size_t k = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    Joint::Rows drift;
+    joints[j].drift(now, drift);
+    for (; k < rows_.size() && rows_[k].joint == static_cast<int>(j); ++k)
+      power += state.lambda[static_cast<Eigen::Index>(k)] * drift[rows_[k].row];
+  }
+  return power;
+}
+
 double MultibodySystem::kinetic_energy(const SystemState& state) const {
   VectorX u(coordinates());
   for (std::size_t i = 0; i < bodies.size(); ++i) u.segment<6>(6 * i) << state.body[i].v_WC, state.body[i].w_B;

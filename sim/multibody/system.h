@@ -1,6 +1,6 @@
 // The equations of motion of the paper's Eq. 3 in residual form, assembled from bodies, joints and force elements.
 //
-//   M a + h(u) + C_q^T lambda = Q(q, u, t)        C(q) = 0
+//   M a + h(u) + C_q^T lambda = Q(q, u, t)        C(q, t) = 0
 //
 // with u_i = (v_WC, w_B), M constant (rigid bodies plus the added mass of the hulls), h the gyroscopic moment
 // w x (J w), C_q the constraint Jacobian and lambda the Lagrange multipliers. (Cha, Nam & Ha 2018, Eq. 1-4; Shabana
@@ -90,7 +90,7 @@ class MultibodySystem {
   // Constraints: the rows kept by select_independent_rows(), all of them before that.
   void constraint_values(const SystemState& state, VectorX& C) const;
   void constraint_jacobian(const SystemState& state, MatrixX& C_q) const;
-  /// -(C_q u)_q u.
+  /// -(C_q u)_q u, and what prescribed motions add to it.
   void constraint_acceleration(const SystemState& state, VectorX& gamma) const;
 
   /// Drops rows that depend on the others at this state (closed loops of parallel axes have such rows); returns the
@@ -104,6 +104,8 @@ class MultibodySystem {
   /// Force (N, W) and moment (N m, W, about the joint point) that joint j exerts on its child.
   void joint_reaction(const SystemState& state, int joint, Vector3& force, Vector3& moment) const;
 
+  /// Power that prescribed motions give to the bodies, W: that of the joints' reactions, lambda^T dC/dt.
+  double prescribed_power(const SystemState& state) const;
   /// Kinetic energy of the bodies with their added mass, J.
   double kinetic_energy(const SystemState& state) const;
   /// Height energy of the weights, J, and what the elements store.

@@ -68,6 +68,7 @@ double si_of(const std::string& suffix) {
                                                         {"kN_m_per_rad", 1000},
                                                         {"kN_m_s_per_rad", 1000},
                                                         {"kN_s_m", 1000},
+                                                        {"kN_m", 1000},
                                                         {"kN_m_s2_per_rad2", 1000},
                                                         {"kN_per_deg", 1e3 / deg},
                                                         {"kN_s_per_deg", 1e3 / deg}};
@@ -103,6 +104,7 @@ std::string unit_in(const std::string& key) {
                                                 "kN_m_per_rad",
                                                 "kN_m_s_per_rad",
                                                 "kN_s_m",
+                                                "kN_m",
                                                 "kN_m_s2_per_rad2",
                                                 "kN_per_deg",
                                                 "kN_s_per_deg"};

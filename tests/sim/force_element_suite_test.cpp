@@ -4,6 +4,7 @@
 #include "sim/lifting/ballast.h"
 #include "sim/lifting/contact.h"
 #include "sim/lifting/mooring.h"
+#include "sim/lifting/restoring.h"
 #include "sim/lifting/tagline.h"
 #include "sim/lifting/wire.h"
 
@@ -146,6 +147,51 @@ MooringOptions linear_options() {
   return o;
 }
 
+// A line that is 1 % longer than the way from its anchor, 60 m under the water and far above the bottom.
+ElementCase anchored_case(const std::string& name, double weight) {
+  MooringOptions o;
+  o.anchor = Vector3(40.0, 30.0, -60.0);
+  o.line = {.length = 1.0, .weight = weight, .axial_stiffness = 2.0e6};
+  o.depth = 400.0;
+  ElementCase c = mooring_case(name, o, Vector3::Zero());
+  c.make = [o](const Instant& now) {
+    MooringOptions laid = o;
+    laid.name = "line";
+    laid.fairlead = kOnFirst;
+    laid.tow_drive = 0;
+    laid.tow_direction = Vector3(0.6, 0.64, 0.48);
+    laid.line.length = 1.01 * (motion_of(kOnFirst, now).p - *o.anchor).norm();
+    return std::make_unique<Mooring>(laid, now);
+  };
+  return c;
+}
+
+// Turned from rest by so many radians, and moved; both matrices full.
+ElementCase restoring_case(const std::string& name, double turn) {
+  ElementCase c;
+  c.name = name;
+  c.between_bodies = false;
+  c.make = [=](const Instant& now) {
+    RestoringOptions o;
+    o.name = "restoring";
+    o.point = kOnFirst;
+    o.rest_point = motion_of(kOnFirst, now).p - Vector3(0.7, -1.2, 0.4);
+    o.rest_R_WB = now.body[0].R_WB * exp_rotation(-turn * Vector3(0.6, -0.64, 0.48));
+    o.axes = rotation_from({0.0, 0.0, 0.8});
+    const auto full = [](double size) {
+      Matrix6 root;
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) root(i, j) = std::sin(1.0 + 2.3 * i + 0.7 * j * j) + (i == j ? 2.0 : 0.0);
+      return Matrix6(size * root * root.transpose());
+    };
+    o.stiffness = full(1e5);
+    o.damping = full(3e4);
+    o.force_at_rest = Vector3(2e4, -1e4, 3e5);
+    return std::make_unique<Restoring>(o);
+  };
+  return c;
+}
+
 // Two points of body 0 pressed `depth` and a little more into a rectangle on `surface`, a third one beside it.
 // A step of 0.05 s moves the points by decimetres from where they stuck: only a large friction holds them.
 ElementCase contact_case(const std::string& name, int surface, double depth, double friction, double h) {
@@ -210,6 +256,16 @@ TEST_CASE("mooring lines pass the suite of force elements") {
   suite::check_force_element(mooring_case("on the bottom", catenary_options(), {35.0, 30.0, -0.5}));
   suite::check_force_element(mooring_case("linear", linear_options(), {-1.0, 2.0, 0.5}));
   suite::check_force_element(mooring_case("linear slack", linear_options(), {-7.0, -8.0, 0.0}, false));
+}
+
+TEST_CASE("lines between an anchor above the bottom and a body pass the suite of force elements") {
+  suite::check_force_element(anchored_case("hanging free", 300.0));
+  suite::check_force_element(anchored_case("buoyant", -300.0));
+}
+
+TEST_CASE("springs to the world pass the suite of force elements") {
+  for (const double turn : {0.0, 0.03, 0.66, 2.0})  // at rest, in the series, beyond it, far
+    suite::check_force_element(restoring_case("a turn of " + std::to_string(turn), turn));
 }
 
 TEST_CASE("contacts pass the suite of force elements") {

@@ -219,3 +219,78 @@ TEST_CASE("coordinate_rate is the rate of the coordinate on motions that the joi
       CHECK((coordinate_after(dt) - coordinate_after(-dt)) / (2 * dt) == Approx(0.8).epsilon(1e-8));
     }
 }
+
+namespace {
+
+// A frame that moves and turns in all directions: p, and R = exp(phi(t)) of a rotation vector, with rates by hand from
+// R alone (differences), so that nothing of the library's kinematics is used.
+class Wandering final : public PrescribedMotion {
+ public:
+  static Matrix3 R(double t) {
+    return exp_rotation(Vector3(0.4, -0.2, 0.7) + Vector3(0.3 * std::sin(1.3 * t), 0.5 * t, 0.2 * std::cos(0.7 * t)));
+  }
+  static Vector3 p(double t) { return {std::sin(0.8 * t), 2.0 + 0.3 * t * t, -1.0 + std::cos(1.1 * t)}; }
+  static Vector3 spin(double t) {
+    constexpr double d = 1e-4;  // error d^2/6 of third derivatives of order 1: 2e-9
+    const Matrix3 W = (R(t + d) - R(t - d)) / (2.0 * d) * R(t).transpose();
+    return {0.5 * (W(2, 1) - W(1, 2)), 0.5 * (W(0, 2) - W(2, 0)), 0.5 * (W(1, 0) - W(0, 1))};
+  }
+  FrameMotion at(double t) const override {
+    constexpr double d = 1e-3;  // of second differences: rounding 1e-16/d^2 = 1e-10, error d^2/12 = 1e-7
+    FrameMotion F;
+    F.R = R(t);
+    F.p = p(t);
+    F.v = {0.8 * std::cos(0.8 * t), 0.6 * t, -1.1 * std::sin(1.1 * t)};
+    F.a = {-0.64 * std::sin(0.8 * t), 0.6, -1.21 * std::cos(1.1 * t)};
+    F.w = spin(t);
+    F.w_dot = (spin(t + d) - spin(t - d)) / (2.0 * d);
+    return F;
+  }
+  bool same_as(const PrescribedMotion&) const override { return false; }
+};
+
+}  // namespace
+
+TEST_CASE("a joint to a frame that moves by itself: rates of its rows are those of their values over time") {
+  for (const Type type : {Type::revolute, Type::spherical, Type::fixed, Type::prismatic}) {
+    CAPTURE(static_cast<int>(type));
+    Pair pair = make_pair(type, true, 17);
+    pair.joint.motion = std::make_shared<const Wandering>();
+    disturb(pair, 23);
+    const double t0 = 0.6;
+    const auto values = [&](double dt, bool child_moves) {
+      std::vector<BodyKinematics> later = pair.at;
+      const VectorX u = velocities(pair.at);
+      if (child_moves)
+        for (std::size_t i = 0; i < later.size(); ++i) later[i] = truth::moved(later[i], dt * u.segment<6>(6 * i));
+      Joint::Rows C = Joint::Rows::Zero();
+      pair.joint.values({t0 + dt, later, {}}, C);
+      return VectorX(C.head(pair.joint.rows()));
+    };
+    const Instant now{t0, pair.at, {}};
+    Joint::Rows drift, gamma;
+    pair.joint.drift(now, drift);
+    pair.joint.quadratic_velocity(now, gamma);
+    const double d = 1e-4;
+    const VectorX rate = (values(d, false) - values(-d, false)) / (2.0 * d);
+    // 1e-8: the square of the step on rows of size 10, and the spin's own 2e-9.
+    CHECK((drift.head(pair.joint.rows()) - rate).norm() < 1e-6);
+    // At constant u: C'' = C_q u' + ... = -gamma.
+    const double e = 1e-3;
+    const VectorX curvature = (values(e, true) - 2.0 * values(0.0, true) + values(-e, true)) / (e * e);
+    CHECK((gamma.head(pair.joint.rows()) + curvature).norm() < 1e-5 * (1.0 + curvature.norm()));
+    // And at rest in time the child's rows are what they were.
+    Joint::Block parent, child;
+    pair.joint.jacobian(now, parent, child);
+    const double s = 1e-5;
+    for (int k = 0; k < 6; ++k) {
+      std::vector<BodyKinematics> there = pair.at, back = pair.at;
+      there[0] = truth::moved(there[0], Vector6::Unit(k) * s);
+      back[0] = truth::moved(back[0], Vector6::Unit(k) * -s);
+      Joint::Rows up = Joint::Rows::Zero(), down = Joint::Rows::Zero();
+      pair.joint.values({t0, there, {}}, up);
+      pair.joint.values({t0, back, {}}, down);
+      CHECK((child.col(k).head(pair.joint.rows()) - (up - down).head(pair.joint.rows()) / (2.0 * s)).norm() < 1e-8);
+    }
+  }
+}

@@ -1,4 +1,4 @@
-#include "tuning/csv_cells.h"
+#include "sim/csv_cells.h"
 
 #include <algorithm>
 #include <array>
