@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kUprightAxis = 0.7;  // an axis closer to the vertical than 45 deg slews, any other luffs
 
+constexpr double kAstern = -179.9995 * kDegree;  // what three decimals would show as -180.000
+
 const JointSpec* hinge_of(const Specification& s, const std::string& body) {
   for (const JointSpec& joint : s.joints)
     if (joint.type == JointSpec::Type::revolute && joint.child == body) return &joint;
@@ -36,7 +38,10 @@ class HingedBody {
   double angle(const StaticPose& pose) const {
     const Matrix3 R_VW = R_of(pose, vessel_).transpose();
     const Vector3 x_W = R_of(pose, body_).col(0), x_V = R_VW * x_W;
-    if (slews_) return std::atan2(x_V.y(), x_V.x());
+    if (slews_) {  // astern is 180 deg, and not -180 by rounding
+      const double heading = std::atan2(x_V.y(), x_V.x());
+      return heading < kAstern ? heading + kTwoPi : heading;
+    }
     return std::atan2(x_V.z(), ahead_sign_ * ahead(pose).dot(x_W));
   }
 

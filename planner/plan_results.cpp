@@ -136,6 +136,15 @@ Specification specification_at(const Evaluator& evaluator, const Eigen::VectorXd
   return in_scenario(evaluator.case_at(x).specification, evaluator.scenarios()[scenario]);
 }
 
+std::vector<std::string> scenario_warnings(const Evaluator& evaluator, const Case& c, const HydroProgress& progress) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < evaluator.scenarios().size(); ++i)
+    for (const std::string& warning :
+         prepare_run(c, specification_at(evaluator, evaluator.baseline(), i), progress).warnings)
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  return warnings;
+}
+
 std::string scenario_text(const ScenarioSpec& scenario) {
   std::string text = fmt::format("{}: sea {}", scenario.name, scenario.sea);
   const auto degrees = [](double rad) { return rad * 180.0 / std::numbers::pi; };

@@ -37,6 +37,10 @@ std::size_t governing_scenario(const Evaluator& evaluator, const Evaluation& eva
 /// The specification of a scenario of the evaluator with the variables at x.
 Specification specification_at(const Evaluator& evaluator, const Eigen::VectorXd& x, std::size_t scenario);
 
+/// What must be known before the numbers of a search are used: the warnings of its baseline in every scenario, each once.
+/// Throws CaseError for a baseline that cannot be built.
+std::vector<std::string> scenario_warnings(const Evaluator& evaluator, const Case& c, const HydroProgress& progress);
+
 /// One sentence on a scenario.
 std::string scenario_text(const ScenarioSpec& scenario);
 

@@ -10,6 +10,7 @@
 #include "planner/vessel_statics.h"
 #include "sim/drive_unit.h"
 #include "sim/spatial/constants.h"
+#include "sim/statics.h"
 
 namespace stillhook {
 namespace {
@@ -76,7 +77,7 @@ DriveUnit unit_of(const Model& model, const DriveSpec& drive) {
     case DriveMotion::share:
       return {"%", "%/min", 100.0, 6000.0};
     case DriveMotion::angle:
-      return {"deg", "deg/min", 1.0 / kDegree, 60.0 / kDegree};
+      return {"deg", "deg/s", 1.0 / kDegree, 1.0 / kDegree};  // as its keys do
     case DriveMotion::length:
       break;
   }
@@ -85,18 +86,15 @@ DriveUnit unit_of(const Model& model, const DriveSpec& drive) {
 
 }  // namespace
 
-std::vector<StaticPose> all_static_poses(const Model& model, const Operation& operation) {
-  std::vector<StaticPose> poses = operation.static_poses;
-  for (StaticPose& pose : solve_poses(model)) poses.push_back(std::move(pose));
-  return poses;
-}
-
-std::vector<ReportTable> static_tables(const Model& model, const std::vector<StaticPose>& poses) {
+std::vector<ReportTable> static_tables(const Model& model, const Operation& operation) {
+  const std::vector<NamedEquilibrium> equilibria = all_equilibria(model, operation);
+  std::vector<StaticPose> poses;
+  for (const NamedEquilibrium& e : equilibria) poses.push_back(static_pose(model, e.state, e.name));
   std::vector<ReportTable> tables;
   if (!model.specification().operation.load.empty()) tables.push_back(place_table(model, poses));
   for (ReportTable& table : vessel_tables(model, poses)) tables.push_back(std::move(table));
   if (ReportTable angles = hinge_table(model, poses); angles.header.size() > 1) tables.push_back(std::move(angles));
-  for (ReportTable& table : period_tables(model, poses)) tables.push_back(std::move(table));
+  for (ReportTable& table : period_tables(model, equilibria)) tables.push_back(std::move(table));
   for (ReportTable& table : mooring_tables(model)) tables.push_back(std::move(table));
   if (model.specification().wires.empty()) return tables;
   const double tonne = 1000.0 * model.specification().sea.gravity;

@@ -8,11 +8,9 @@
 
 namespace stillhook {
 
-/// Every pose at rest: the start and the end of each phase, then the poses that the case asks to report.
-std::vector<StaticPose> all_static_poses(const Model& model, const Operation& operation);
-
-/// Load and hoist points, vessels, angles of hinged bodies, wire tensions, wire lengths; one row a pose.
-std::vector<ReportTable> static_tables(const Model& model, const std::vector<StaticPose>& poses);
+/// Load and hoist points, vessels, angles of hinged bodies, natural periods, wire tensions, wire lengths; one row a
+/// pose: the start, the end of each phase, then the poses that the case asks to report. And the moorings.
+std::vector<ReportTable> static_tables(const Model& model, const Operation& operation);
 
 /// Phases with start, duration, and the drives that move in them. Times without waiting for events.
 ReportTable phase_table(const Model& model, const Operation& operation);

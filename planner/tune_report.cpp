@@ -15,6 +15,21 @@ namespace {
 
 std::string share(double v) { return std::isnan(v) ? "–" : fmt::format("{:.2f} %", 100.0 * v); }
 
+/// The swing that is damped least, before and after, as a sentence for the first screen; empty if it is not known.
+std::string swing_sentence(const GainTuning& result) {
+  const auto least = [](const std::vector<SwingMode>& modes) {
+    double share = std::numeric_limits<double>::quiet_NaN();
+    for (const SwingMode& mode : modes)
+      if (!(share <= mode.linear_lines)) share = mode.linear_lines;
+    return share;
+  };
+  const double before = least(result.before), after = least(result.after);
+  if (std::isnan(before) || std::isnan(after)) return {};
+  return fmt::format("The swing that is damped least has {:.2f} % of critical damping with the tuned gains, {:.2f} % with "
+                     "those of the case (linear).",
+                     100.0 * after, 100.0 * before);
+}
+
 std::string paragraph(const std::string& text) { return text.empty() ? text : "<p>" + escape_html(text) + "</p>"; }
 
 /// Colours of the map from the lowest objective to the highest; a cross where a limit is broken.
@@ -29,6 +44,7 @@ std::string map_svg(const Evaluator& evaluator, const GainTuning& result) {
     low = std::min(low, v);
     high = std::max(high, v);
   }
+  if (!(low <= high)) return "<p>No point of the map could be evaluated, so there is none to draw.</p>";
   const double cell = 400.0 / static_cast<double>(n), left = 70.0, top = 10.0;
   std::string svg = fmt::format(
       "<figure><svg viewBox=\"0 0 560 470\" role=\"img\" style=\"max-width:36rem\"><title>Objective over the "
@@ -46,16 +62,16 @@ std::string map_svg(const Evaluator& evaluator, const GainTuning& result) {
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"9\" text-anchor=\"middle\">×</text>",
                            x + 0.5 * cell, y + 0.5 * cell + 3.0);
     }
-  const auto mark = [&](const Eigen::VectorXd& g, const char* label) {
+  const auto mark = [&](const Eigen::VectorXd& g, const char* label, double below) {
     const double x = left + 400.0 * (g[0] - map.x.front()) / (map.x.back() - map.x.front());
     const double y = top + 400.0 - 400.0 * (g[1] - map.y.front()) / (map.y.back() - map.y.front());
     svg += fmt::format(
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"white\" stroke=\"black\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
         "font-size=\"12\" fill=\"white\" stroke=\"black\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
-        x, y, x + 8.0, y - 6.0, label);
+        x, y, x + 8.0, y + below, label);
   };
-  mark(result.start, "case");
-  mark(result.gains, "tuned");
+  mark(result.start, "case", 16.0);  // below and above: the points may be close together
+  mark(result.gains, "tuned", -6.0);
   const auto& v = evaluator.base().plan.variables;
   svg += fmt::format(
       "<text x=\"{0}\" y=\"428\" font-size=\"12\">{1:.4g}</text><text x=\"{2}\" y=\"428\" font-size=\"12\" "
@@ -82,8 +98,12 @@ std::string tuning_verdict(const GainTuning& result) {
   if (!result.improved)
     return fmt::format("No gains better than those of the case were found (objective {:.4f}); they stay.",
                        result.baseline.objective);
-  return fmt::format("Objective {:.4f} with the tuned gains, {:.4f} with those of the case{}.", result.tuned.objective,
-                     result.baseline.objective,
+  const double share = 1.0 - result.tuned.objective / result.baseline.objective;
+  return fmt::format("Objective {:.4f} with the tuned gains, {:.4f} with those of the case{}{}.",
+                     result.tuned.objective, result.baseline.objective,
+                     std::isfinite(share) && result.baseline.objective > 0.0
+                         ? fmt::format(": {:.1f} % better", 100.0 * share)
+                         : std::string(),
                      result.tuned.violation() > 0.0 ? "; a hard limit is broken with either" : "");
 }
 
@@ -175,7 +195,8 @@ ReportTable winch_table(const GainTuning& result) {
   return table;
 }
 
-std::string tuning_report(const Evaluator& evaluator, const GainTuning& result) {
+std::string tuning_report(const Evaluator& evaluator, const GainTuning& result, const DocumentControl& control,
+                          const std::vector<std::string>& warnings) {
   const Case& c = evaluator.base();
   ReportPage page;
   page.section("gains", "Gains",
@@ -189,8 +210,9 @@ std::string tuning_report(const Evaluator& evaluator, const GainTuning& result) 
   page.section("scenarios", "Scenarios", scenarios + "</ul>");
   const std::string head = fmt::format("<div class=\"verdict {}\">{}</div>",
                                        result.improved && result.tuned.violation() <= 0.0 ? "pass" : "warn",
-                                       escape_html(tuning_verdict(result)));
-  return page.html("Tagline gains of " + (c.title.empty() ? c.name : c.title), "", head, c.name);
+                                       escape_html(tuning_verdict(result)) + paragraph(swing_sentence(result))) +
+                           warnings_html(warnings);
+  return page.html("Tagline gains of " + (c.title.empty() ? c.name : c.title), "", head, c.name, control);
 }
 
 Summary tuning_summary(const Evaluator& evaluator, const GainTuning& result, double wall) {

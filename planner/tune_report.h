@@ -24,7 +24,9 @@ ReportTable schedule_table(const GainTuning& result);
 /// Winches that cannot follow, and what they would have to do.
 ReportTable winch_table(const GainTuning& result);
 
-std::string tuning_report(const Evaluator& evaluator, const GainTuning& result);
+/// `warnings`: what must be known before the numbers are used.
+std::string tuning_report(const Evaluator& evaluator, const GainTuning& result, const DocumentControl& control = {},
+                          const std::vector<std::string>& warnings = {});
 Summary tuning_summary(const Evaluator& evaluator, const GainTuning& result, double wall);
 
 }  // namespace stillhook

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "problems/scenarios.h"
+#include "sim/number_text.h"
 #include "sim/simulate.h"
 #include "sim/spatial/constants.h"
 
@@ -29,21 +30,14 @@ std::vector<ConstraintSpec> constraints_of(const Case& c) {
   return constraints;
 }
 
-std::string number(double v) {
-  std::string text = std::to_string(v);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 Eigen::VectorXd baseline_of(const Case& c) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(c.plan.variables.size()));
   for (std::size_t i = 0; i < c.plan.variables.size(); ++i) {
     const VariableSpec& v = c.plan.variables[i];
     const double value = key_value(c, v.key);
     if (!(value >= v.lower && value <= v.upper))
-      throw CaseError("plan.variables." + v.key + ": the case has " + number(value) + ", outside the bounds " +
-                      number(v.lower) + " to " + number(v.upper));
+      throw CaseError("plan.variables." + v.key + ": the case has " + number_text(value) + ", outside the bounds " +
+                      number_text(v.lower) + " to " + number_text(v.upper));
     x[static_cast<Eigen::Index>(i)] = value;
   }
   return x;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <exception>
 
+#include "sim/number_text.h"
+
 namespace stillhook {
 
 namespace {
@@ -78,7 +80,7 @@ LiftTwin twin_of(const Case& c, const Lift& base, const std::string& key, double
   twin.operation = {low->operation, high->operation};
   twin.width = to - from;
   twin.range = range;
-  if (twin.width == 0.0) throw CaseError(key + ": can be moved neither up nor down from " + std::to_string(x));
+  if (twin.width == 0.0) throw CaseError(key + ": can be moved neither up nor down from " + number_text(x));
   return twin;
 }
 

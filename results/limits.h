@@ -30,11 +30,19 @@ struct LimitCheck {
 /// Checks every limit. A metric that could not be computed (NaN) fails.
 std::vector<LimitCheck> check_limits(const std::vector<LimitSpec>& limits, const Metrics& metrics);
 
-/// Margin as a share of the limit; the criterion with the smallest one governs. For a limit of zero ("no re-hits")
-/// there is no such share: +infinity if it is kept, -infinity if not. NaN values give -infinity.
+/// How much of what a limit allows is used: 0.07 = 7 %, above 1 it is broken. Of a maximum value / limit, of a minimum
+/// limit / value; of an amplification or a slack ratio only the dynamic part counts, from the 1 of a lift at rest:
+/// a DAF of 1.021 uses 7 % of 1.3. For a limit of zero ("no re-hits") there is no such share: 0 if it is kept,
+/// +infinity if not; values without one (NaN) give +infinity.
+double limit_use(const LimitCheck& check);
+
+/// "7 % of what it allows", "17.4 times what it allows"; empty where there is no such share.
+std::string limit_use_text(const LimitCheck& check);
+
+/// 1 - limit_use(): the criterion with the smallest one governs.
 double relative_margin(const LimitCheck& check);
 
-/// The check with the smallest relative margin, hard ones before soft ones; nullptr if there is none.
+/// The check that uses the largest share of what its limit allows, hard ones before soft ones; nullptr if there is none.
 const LimitCheck* governing_check(const std::vector<LimitCheck>& checks);
 
 /// True when the run completed and no hard limit is violated.

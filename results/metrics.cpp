@@ -48,7 +48,10 @@ std::vector<MetricDefinition> build_catalogue() {
   add("daf_total", "1", "largest total hook load / static load, lift-off and set-down included");
   add("daf_max", "1", "largest tension / static load of any hoist wire, lift-off and set-down included");
   add("daf_excess", "1", "daf_max - 1: what the dynamics add to the static load");
-  add("daf.%", "1", "largest tension / static load of a wire, lift-off and set-down included", "wire");
+  add("daf.%", "1",
+      "largest tension / static load of a wire, or of the hoist wires of a boom or of all booms of a vessel together; "
+      "lift-off and set-down included",
+      "wire or crane");
   add("slack_ratio_min", "1", "smallest tension / static load of any hoist wire while the load hangs free");
   add("slack_ratio_min.%", "1", "smallest tension / static load of a hoist wire while the load hangs free",
       "hoist wire");
@@ -112,9 +115,10 @@ std::vector<std::string> element_names(const std::string& kind, const Specificat
   };
   const auto any = [](const auto&) { return true; };
   if (kind == "phase") collect(s.operation.phases, any);
-  if (kind == "wire") collect(s.wires, any);
-  const bool with_cranes = kind == "hoist wire or crane";
-  if (kind == "hoist wire" || with_cranes) collect(s.wires, [](const WireSpec& w) { return w.role == WireSpec::Role::hoist; });
+  if (kind == "wire" || kind == "wire or crane") collect(s.wires, any);
+  const bool with_cranes = kind == "hoist wire or crane" || kind == "wire or crane";
+  if (kind == "hoist wire" || kind == "hoist wire or crane")
+    collect(s.wires, [](const WireSpec& w) { return w.role == WireSpec::Role::hoist; });
   if (kind == "crane vessel") names = crane_vessels(s);
   if (kind == "crane" || with_cranes)
     for (const std::string& crane : crane_bodies(s)) names.push_back(crane);

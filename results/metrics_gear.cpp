@@ -20,7 +20,7 @@ std::vector<std::string> tensions_of(const RunView& view, const std::vector<std:
   return names;
 }
 
-std::vector<std::string> hoist_wires(const Specification& s) {
+std::vector<std::string> hoist_wire_names(const Specification& s) {
   std::vector<std::string> names;
   for (const WireSpec& wire : s.wires)
     if (wire.role == WireSpec::Role::hoist) names.push_back(wire.name);
@@ -102,13 +102,15 @@ void add_wires(const RunView& view, MetricList& list) {
   list.add("slack_ratio_min", slack);
   list.add("wire_utilisation_max", wire_use);
   const Specification& s = view.specification();
-  if (const std::vector<std::string> hoist = tensions_of(view, hoist_wires(s)); !hoist.empty()) {
+  if (const std::vector<std::string> hoist = tensions_of(view, hoist_wire_names(s)); !hoist.empty()) {
     list.add("daf_total", largest_amplification(view, hoist, view.all_phases()));
     list.add("hook_load_max", largest_sum(view, hoist));
   }
   for (const std::string& crane : crane_bodies(s))
-    if (const auto hoist = tensions_of(view, hoist_wires_of(s, crane)); !hoist.empty())
+    if (const auto hoist = tensions_of(view, hoist_wires_of(s, crane)); !hoist.empty()) {
       list.add("hook_load_max.%", crane, largest_sum(view, hoist));
+      list.add("daf.%", crane, largest_amplification(view, hoist, view.all_phases()));
+    }
   add_lead_angles(view, list);
 }
 

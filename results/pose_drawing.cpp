@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "results/html.h"
 
@@ -15,6 +17,9 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kWidth = 360.0, kGap = 10.0, kTitle = 20.0, kMargin = 6.0;  // user units
+constexpr double kSmallest = 4.0;                                            // m, the least that a view shows
+constexpr double kNear = 15.0;                                               // m, how much of a support is shown
+constexpr double kTallest = 1.6;                                             // height of a view over its width
 constexpr double kDeepest = -30.0;                                           // m, what lies deeper is cut off
 
 /// Which two world coordinates a view shows.
@@ -77,7 +82,12 @@ const char* fill_of(SceneBody::Kind kind) {
 }
 
 std::string draw_body(const SceneBody& body, const StaticPose& pose, int index, View view, const Frame& f) {
-  std::string out;
+  std::string out = "<g><title>" + escape_html(readable_name(body.name)) + "</title>";
+  for (const SceneBody::Member& m : body.pedestals) {
+    const Point a = f(project(world(pose, index, m.from), view)), b = f(project(world(pose, index, m.to), view));
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#8b97a3\" stroke-width=\"{:.1f}\"/>", a.x(),
+                       a.y(), b.x(), b.y(), std::max(1.5, 2.0 * m.radius * f.scale));
+  }
   for (const SceneBody::Member& m : body.members) {
     const Point a = f(project(world(pose, index, m.from), view)), b = f(project(world(pose, index, m.to), view));
     out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#9a7a1c\" stroke-width=\"{:.1f}\"/>", a.x(),
@@ -93,7 +103,29 @@ std::string draw_body(const SceneBody& body, const StaticPose& pose, int index, 
     out += fmt::format("<path d=\"{}z\" fill=\"{}\" fill-opacity=\".85\" stroke=\"#1c2329\" stroke-width=\".8\"/>", d,
                        mesh == &body.mesh ? fill_of(body.kind) : "none");
   }
-  return out;
+  return out + "</g>";
+}
+
+/// The bodies in the order in which they are painted: what floats first, what is lifted above it; in plan the higher
+/// one above the lower.
+std::vector<std::size_t> painting_order(const Scene& scene, const StaticPose& pose, View view) {
+  const auto floats = [&](std::size_t i) {
+    return scene.bodies[i].kind == SceneBody::Kind::crane || scene.bodies[i].kind == SceneBody::Kind::vessel;
+  };
+  const auto top = [&](std::size_t i) {
+    double z = world(pose, static_cast<int>(i), Vector3::Zero()).z();
+    for (const Vector3& v : scene.bodies[i].mesh.vertices) z = std::max(z, world(pose, static_cast<int>(i), v).z());
+    for (const SceneBody::Member& m : scene.bodies[i].members)
+      for (const Vector3& v : {m.from, m.to}) z = std::max(z, world(pose, static_cast<int>(i), v).z());
+    return z;
+  };
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    order.emplace_back(floats(i) ? -std::numeric_limits<double>::infinity() : view.up == 2 ? 0.0 : top(i), i);
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::size_t> indices;
+  for (const auto& [height, index] : order) indices.push_back(index);
+  return indices;
 }
 
 std::string draw_lines(const Scene& scene, const StaticPose& pose, View view, const Frame& f) {
@@ -136,15 +168,19 @@ std::string draw_panel(const Scene& scene, const StaticPose& pose, const Vector3
     out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#dbe8ee\"/>",
                        corner.x(), water, top.x() - corner.x(), std::max(0.0, corner.y() - water));
   }
-  for (const bool vessels : {true, false}) {  // what is lifted lies above what floats
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const SceneBody::Kind kind = scene.bodies[i].kind;
-      if ((kind == SceneBody::Kind::crane || kind == SceneBody::Kind::vessel) == vessels)
-        out += draw_body(scene.bodies[i], pose, static_cast<int>(i), view, f);
+  bool afloat = true;
+  for (const std::size_t i : painting_order(scene, pose, view)) {
+    const SceneBody::Kind kind = scene.bodies[i].kind;
+    if (afloat && kind != SceneBody::Kind::crane && kind != SceneBody::Kind::vessel) {
+      out += draw_surfaces(scene, pose, view, f);
+      afloat = false;
     }
-    if (vessels) out += draw_surfaces(scene, pose, view, f);
+    out += draw_body(scene.bodies[i], pose, static_cast<int>(i), view, f);
   }
+  if (afloat) out += draw_surfaces(scene, pose, view, f);
   out += draw_lines(scene, pose, view, f);
+  out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"7\" fill=\"#56626c\">{}</text>", corner.x() + 3.0,
+                     top.y() + 9.0, view.up == 2 ? "elevation from starboard" : "plan");
   const Point cross = f(project(target, view));
   return out + fmt::format("<path d=\"M{:.1f} {:.1f}h10m-5 -5v10\" stroke=\"#00603a\" fill=\"none\"/></svg>",
                            cross.x() - 5.0, cross.y());
@@ -184,24 +220,39 @@ Extent extent_of(const Scene& scene, const std::vector<StaticPose>& poses, const
       for (const Vector3& v : scene.bodies[i].mesh.vertices) e.add(world(pose, index, v));
       for (const SceneBody::Member& m : scene.bodies[i].members)
         for (const Vector3& v : {m.from, m.to}) e.add(world(pose, index, v));
+      if (scene.bodies[i].mesh.vertices.empty() && scene.bodies[i].members.empty())
+        e.add(world(pose, index, Vector3::Zero()));
     }
+  for (const SceneSurface& s : scene.surfaces)  // of a sea bed without end only what is near its middle
+    for (const double side : {-1.0, 1.0})
+      e.add(world(poses.front(), s.body,
+                  s.centre + side * Vector3(std::min(kNear, 0.5 * s.length), std::min(kNear, 0.5 * s.breadth), 0.0)));
   const Vector3 room = Vector3::Constant(0.03 * (e.high - e.low).maxCoeff());
   e.low -= room;
   e.high += room;
-  e.low.z() = std::max(e.low.z(), kDeepest);
+  e.low.z() = std::min(std::max(e.low.z(), kDeepest), e.high.z());
+  // All views share the x axis: a lift that is tall or wide, or has no size at all, gets room at its sides.
+  const double across = std::max({kSmallest, (e.high.y() - e.low.y()) / kTallest, (e.high.z() - e.low.z()) / kTallest});
+  for (const int axis : {0, 1, 2}) {
+    const double wanted = axis == 0 ? across : kSmallest;
+    const double missing = 0.5 * std::max(0.0, wanted - (e.high[axis] - e.low[axis]));
+    e.low[axis] -= missing;
+    e.high[axis] += missing;
+  }
   return e;
 }
 
 }  // namespace
 
-std::vector<std::string> draw_poses(const Scene& scene, const std::vector<StaticPose>& poses, const Vector3& target) {
+std::vector<PoseDrawing> draw_named_poses(const Scene& scene, const std::vector<StaticPose>& poses,
+                                          const Vector3& target) {
   if (poses.empty() || scene.bodies.empty()) return {};
   const Extent e = extent_of(scene, poses, target);
   const double scale = (kWidth - 2.0 * kMargin) / (e.high.x() - e.low.x());
   const double elevation_height = scale * (e.high.z() - e.low.z()), plan_height = scale * (e.high.y() - e.low.y());
   const double plan_bottom = kTitle + elevation_height + kGap + plan_height, height = plan_bottom + 22.0;
   const double bar = nice_length((e.high.x() - e.low.x()) / 5.0);
-  std::vector<std::string> drawings;
+  std::vector<PoseDrawing> drawings;
   const StaticPose* before = nullptr;
   for (const StaticPose& pose : poses) {
     if (before && looks_like(*before, pose)) continue;
@@ -220,8 +271,14 @@ std::vector<std::string> draw_poses(const Scene& scene, const std::vector<Static
         "<path d=\"M{} {:.1f}v4h{:.1f}v-4\" stroke=\"#1c2329\" fill=\"none\"/><text x=\"{:.1f}\" "
         "y=\"{:.1f}\">{} m</text></svg>",
         kMargin, plan_bottom + 6.0, scale * bar, kMargin + scale * bar + 6.0, plan_bottom + 14.0, readable_number(bar));
-    drawings.push_back(std::move(svg));
+    drawings.push_back({pose.name, std::move(svg)});
   }
+  return drawings;
+}
+
+std::vector<std::string> draw_poses(const Scene& scene, const std::vector<StaticPose>& poses, const Vector3& target) {
+  std::vector<std::string> drawings;
+  for (PoseDrawing& drawing : draw_named_poses(scene, poses, target)) drawings.push_back(std::move(drawing.svg));
   return drawings;
 }
 

@@ -7,6 +7,7 @@
 
 #include "results/load_path.h"
 #include "results/run_view.h"
+#include "sim/crane_parts.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -153,11 +154,19 @@ double soft_ratio(const RunView& view, const std::vector<std::string>& wires, co
 /// A value of the search, empty for one that is not there.
 std::optional<double> if_any(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
+/// The wire of that name, or else the hoist wires of the crane of that name.
+std::vector<std::string> wires_named(const Specification& s, const std::string& element) {
+  for (const WireSpec& wire : s.wires)
+    if (wire.name == element) return {element};
+  return hoist_wires_of(s, element);
+}
+
 std::optional<double> smooth_daf(const RunView& view, const std::string& name, const SmoothOptions& options) {
   const HoistWires hoist(view.specification());
   if (view.phases_of({Stage::hanging}).empty() || hoist.names.empty()) return std::nullopt;
   if (name == "daf_total") return if_any(soft_ratio(view, hoist.names, options));
-  if (name.starts_with("daf.")) return if_any(soft_ratio(view, {name.substr(4)}, options));
+  if (name.starts_with("daf."))
+    return if_any(soft_ratio(view, wires_named(view.specification(), name.substr(4)), options));
   // The larger of the wires, smoothly: they swing together, so the root mean of high powers. It lies below the largest
   // by at most ln(wires) / power of it, so the power grows with the sharpness: 64 for the usual one of 20.
   const double power = 3.2 * options.sharpness;

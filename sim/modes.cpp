@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "sim/lifting/tagline.h"
+
 namespace stillhook {
 namespace {
 
@@ -39,6 +41,15 @@ int nearest(const Eigensystem& in, const MatrixX& M, const VectorX& shape) {
     if (likeness > largest) largest = likeness, best = i;
   }
   return best;
+}
+
+// dQ/dxi of the taglines alone.
+MatrixX tagline_stiffness(const MultibodySystem& system, SystemState& state, SystemWorkspace& work) {
+  JacobianSum sum(static_cast<int>(system.bodies.size()));
+  for (std::size_t e = 0; e < system.elements.size(); ++e)
+    if (dynamic_cast<const Tagline*>(system.elements[e].get()))
+      system.elements[e]->add_jacobian(state.instant(), 0.0, system.memory(static_cast<int>(e), state, work), sum);
+  return sum.stiffness();
 }
 
 double frequency_of(double square) { return square > kSlowest * kSlowest ? std::sqrt(square) : 0.0; }
@@ -82,8 +93,8 @@ ModalAnalysis::ModalAnalysis(const Model& model) : model_(model) {
   }
 }
 
-MatrixX ModalAnalysis::mass_at(double frequency) const {
-  MatrixX M = model_.system().mass();
+MatrixX ModalAnalysis::mass_at(double frequency, int phase) const {
+  MatrixX M = model_.system().mass(phase);
   for (const Hull& hull : hulls_) {
     Matrix6 T = Matrix6::Identity();
     T.topLeftCorner<3, 3>() = hull.R_WH.transpose();
@@ -93,7 +104,7 @@ MatrixX ModalAnalysis::mass_at(double frequency) const {
   return M;
 }
 
-std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium) const {
+std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium, bool with_taglines) const {
   const MultibodySystem& system = model_.system();
   SystemState state = equilibrium;
   state.t = kCalm;
@@ -111,18 +122,21 @@ std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium) const {
     Z = MatrixX(qr.householderQ()).rightCols(system.coordinates() - qr.rank());
   }
   if (Z.cols() == 0) return {};  // nothing can move
-  MatrixX K = -Z.transpose() * work.jacobian.stiffness() * Z;
+  MatrixX by_motion = work.jacobian.stiffness();
+  if (!with_taglines) by_motion -= tagline_stiffness(system, state, work);
+  MatrixX K = -Z.transpose() * by_motion * Z;
   K = (0.5 * (K + K.transpose())).eval();  // friction and winch laws apart it is symmetric in equilibrium
 
-  const Eigensystem start = solve(K, system.mass(), Z);
+  const MatrixX& M_start = system.mass(state.phase);
+  const Eigensystem start = solve(K, M_start, Z);
   std::vector<Mode> modes;
   for (int i = 0; i < start.square.size(); ++i) {
     double square = start.square[i];
     VectorX shape = start.shape.col(i);
-    MatrixX M = system.mass();
+    MatrixX M = M_start;
     bool converged = hulls_.empty() || frequency_of(square) == 0.0;
     for (int k = 0; k < kMaxFrequencySteps && !converged; ++k) {
-      M = mass_at(std::sqrt(std::max(square, kSlowest * kSlowest)));
+      M = mass_at(std::sqrt(std::max(square, kSlowest * kSlowest)), state.phase);
       const Eigensystem next = solve(K, M, Z);
       const int j = nearest(next, M, shape);
       converged = std::abs(next.square[j] - square) < 2.0 * kFrequencyTolerance * std::abs(square);

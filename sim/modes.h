@@ -4,6 +4,7 @@
 //
 //   K  stiffness with everything at rest: hydrostatics, weights, wires and lines, contacts that touch, what the joints
 //      carry (N/m, N m/rad)        A(w)  added mass of the hulls at the mode's own frequency (Ogilvie 1964)
+//      Hulls that have parted keep the frequency's share of their coupled set, beside their own A_inf of that phase.
 //   Z  orthonormal basis of the motions that the joints allow        w  rad/s
 //
 // Each mode is iterated by itself: w gives A(w), A(w) gives the mode nearest in shape to the last one, and its w.
@@ -34,10 +35,11 @@ class ModalAnalysis {
   explicit ModalAnalysis(const Model& model);
 
   /// All modes at a state in static equilibrium (see solve_static), in the order of falling periods. The elements see
-  /// calm water and the state's phase.
-  std::vector<Mode> at(const SystemState& equilibrium) const;
-  /// Mass matrix with the hulls' added mass at a frequency (rad/s).
-  MatrixX mass_at(double frequency) const;
+  /// calm water and the state's phase. `with_taglines` false: their stiffness is left out. It is that of a control
+  /// which pulls to one side only, no spring.
+  std::vector<Mode> at(const SystemState& equilibrium, bool with_taglines = true) const;
+  /// Mass matrix of a phase with the hulls' added mass at a frequency (rad/s).
+  MatrixX mass_at(double frequency, int phase = 0) const;
 
  private:
   struct Hull {

@@ -2,60 +2,63 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "sim/drive_unit.h"
 #include "sim/lifting/contact.h"
 #include "sim/multibody/equilibrium.h"
 #include "sim/number_text.h"
+#include "sim/spatial/constants.h"
 #include "sim/statics.h"
+#include "sim/swing_period.h"
 
 namespace stillhook {
 namespace {
 
 std::string entry_of(const PhaseSpec& phase) { return "operation.phases." + phase.name; }
 
-void check_limits_of(const DriveSpec& drive, const RateProfile& profile, const std::string& entry) {
+/// A rate and an acceleration of a drive in the units of its keys.
+struct KeyUnits {
+  double rate, acceleration;  // per SI
+  const char *rate_unit, *acceleration_unit;
+};
+
+KeyUnits key_units(DriveMotion motion) {
+  switch (motion) {
+    case DriveMotion::angle:
+      return {1.0 / kDegree, 1.0 / kDegree, " deg/s", " deg/s2"};
+    case DriveMotion::share:
+      return {60.0, 1.0, " share/min", " share/s2"};
+    case DriveMotion::length:
+      break;
+  }
+  return {60.0, 1.0, " m/min", " m/s2"};
+}
+
+void check_limits_of(const Model& model, const DriveSpec& drive, const RateProfile& profile, const std::string& entry) {
   constexpr double kSlack = 1.0 + 1e-9;  // a profile may use its drive's limits to the full
+  const KeyUnits unit = key_units(drive_motion(model.specification(), drive));
+  const auto rate = [&](double value) { return number_text(value * unit.rate) + unit.rate_unit; };
+  const auto acceleration = [&](double v) { return number_text(v * unit.acceleration) + unit.acceleration_unit; };
   if (drive.speed_max > 0.0 && profile.peak_rate() > drive.speed_max * kSlack)
     throw SpecificationError(entry, "speed",
-                             "drive '" + drive.name + "' is limited to " + number_text(drive.speed_max) +
-                                 " per s, the profile needs " + number_text(profile.peak_rate()));
+                             "drive '" + drive.name + "' is limited to " + rate(drive.speed_max) +
+                                 ", the profile needs " + rate(profile.peak_rate()));
   if (drive.acceleration_max > 0.0 && profile.peak_acceleration() > drive.acceleration_max * kSlack)
     throw SpecificationError(entry, "ramp",
-                             "drive '" + drive.name + "' is limited to " + number_text(drive.acceleration_max) +
-                                 " per s2, the profile needs " + number_text(profile.peak_acceleration()) +
+                             "drive '" + drive.name + "' is limited to " + acceleration(drive.acceleration_max) +
+                                 ", the profile needs " + acceleration(profile.peak_acceleration()) +
                                  ": a longer ramp or a lower speed is needed");
 }
 
-Vector3 point_in_world(const Model& model, const StaticPose& pose, const std::string& body, const Vector3& p_B) {
-  const int i = model.body_index(body);
-  return i == kWorld ? p_B : pose.bodies[static_cast<std::size_t>(i)] * p_B;
-}
-
-/// Mean length of the hoist falls in a static pose, m; 0 if there are none.
-double fall_length(const Model& model, const StaticPose& pose) {
-  double sum = 0.0;
-  int count = 0;
-  for (const WireSpec& wire : model.specification().wires) {
-    if (wire.role != WireSpec::Role::hoist) continue;
-    sum +=
-        (point_in_world(model, pose, wire.from, wire.point_from) - point_in_world(model, pose, wire.to, wire.point_to))
-            .norm();
-    ++count;
-  }
-  return count ? sum / count : 0.0;
-}
-
-/// The move's profile with the period of its shaper worked out if it is not given: of the pendulum on the hoist falls,
-/// as long as they are on average before and after the move.
-ProfileSpec with_period(const Model& model, ProfileSpec spec, const StaticPose& before, const StaticPose& after,
+/// The move's profile with the period of its shaper worked out if it is not given: of the load's swing, between an
+/// equilibrium before the move and one after it.
+ProfileSpec with_period(const Model& model, ProfileSpec spec, const SystemState& before, const SystemState& after,
                         const std::string& entry) {
   if (spec.shaper == ProfileSpec::Shaper::none || spec.shaper_period > 0.0) return spec;
-  const double length = 0.5 * (fall_length(model, before) + fall_length(model, after));
-  if (!(length > 0.0))
+  spec.shaper_period = swing_period(model, before, after);
+  if (!(spec.shaper_period > 0.0))
     throw SpecificationError(entry, "shaper_period",
                              "must be > 0 s, got 0: there is no hoist wire whose pendulum it could be taken from");
-  spec.shaper_period = 2.0 * std::numbers::pi * std::sqrt(length / model.specification().sea.gravity);
   return spec;
 }
 
@@ -196,9 +199,9 @@ double Operation::planned_duration() const {
 
 namespace {
 
-// The phase with its moves, whose travels are known, as are the poses that it starts from and ends in.
+// The phase with its moves, whose travels are known, as are the equilibria that it starts from and ends in.
 Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<double>& travels,
-                  const StaticPose& before, const StaticPose& after) {
+                  const SystemState& before, const SystemState& after) {
   Phase phase;
   phase.name = spec.name;
   phase.stage = spec.stage;
@@ -218,7 +221,7 @@ Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<d
     m.background = move.background;
     if (std::abs(travels[i]) > 0.0)
       m.profile = RateProfile(with_period(model, move.profile, before, after, entry), travels[i], move.speed);
-    check_limits_of(model.specification().drives[m.drive], m.profile, entry);
+    check_limits_of(model, model.specification().drives[m.drive], m.profile, entry);
     if (!m.background) phase.duration = std::max(phase.duration, m.delay + m.profile.duration());
     phase.moves.push_back(std::move(m));
   }
@@ -246,7 +249,7 @@ Operation with_phases(const Model& model, std::size_t phases, double until, F en
     const SystemState after = end_of_phase(p, before);
     add_pose(after, spec.name);
     operation.phases.push_back(timed_phase(model, spec, travels_between(model, spec, before, after),
-                                           operation.static_poses[p], operation.static_poses[p + 1]));
+                                           operation.equilibria[p], operation.equilibria[p + 1]));
   }
   return operation;
 }
@@ -333,7 +336,7 @@ Operation retimed_operation(const Model& model, const OperationSpec& spec, const
     std::vector<double> travels;
     for (const Move& move : like.phases[i].moves) travels.push_back(move.profile.travel());
     operation.phases.push_back(
-        timed_phase(model, spec.phases[i], travels, like.static_poses[i], like.static_poses[i + 1]));
+        timed_phase(model, spec.phases[i], travels, like.equilibria[i], like.equilibria[i + 1]));
   }
   return operation;
 }

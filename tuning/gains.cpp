@@ -8,6 +8,7 @@
 #include "problems/case_key.h"
 #include "problems/scenarios.h"
 #include "sim/simulate.h"
+#include "tuning/meeting_keys.h"
 
 namespace stillhook {
 namespace {
@@ -20,14 +21,6 @@ std::vector<VariableSpec> usual_gains(const Case& c) {
   return {
       {"taglines.*.kp_kN_per_deg", 0.0, std::max(0.5 * kN, 1.2 * key_value(c, "taglines.*.kp_kN_per_deg")), false, {}},
       {"taglines.*.kd_kN_s_per_deg", 0.0, std::max(2.0 * kN, 1.2 * key_value(c, "taglines.*.kd_kN_s_per_deg")), false, {}}};
-}
-
-/// Whether two keys can lead to the same value, `*` being every entry.
-bool may_meet(const std::string& a, const std::string& b) {
-  const std::vector<std::string> x = steps_of(a), y = steps_of(b);
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const std::string& s, const std::string& t) {
-    return s == t || s == "*" || t == "*";
-  });
 }
 
 /// Gains within the bounds that [plan.variables] sets for them: outside, no case can be read, neither a point of the

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "tuning/estimates.h"
+#include "tuning/meeting_keys.h"
 #include "tuning/segments.h"
 #include "tuning/size_check.h"
 
@@ -353,7 +354,10 @@ class Identifier {
 
 }  // namespace
 
-Identification identify(const Case& c, const IdentificationOptions& options) { return Identifier(c, options).run(); }
+Identification identify(const Case& c, const IdentificationOptions& options) {
+  check_fit_within_plan(c);
+  return Identifier(c, options).run();
+}
 
 Case fitted_case(const Case& c, const Identification& result) {
   std::vector<std::pair<std::string, double>> values;

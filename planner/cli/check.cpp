@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -6,6 +7,7 @@
 #include "planner/cli/hydro_progress.h"
 #include "planner/cli/interrupt.h"
 #include "planner/cli/tables.h"
+#include "planner/pose_files.h"
 #include "planner/run.h"
 #include "planner/static_tables.h"
 #include "planner/version.h"
@@ -38,12 +40,15 @@ nlohmann::ordered_json table_json(const ReportTable& table) {
 
 }  // namespace
 
-int run_check(const CommonOptions& options) {
+int run_check(const CommonOptions& options, const CheckArguments& arguments) {
   const std::atomic<bool>& stop = catch_interrupts();
   const Case c = load_case(options);
   const PreparedRun prepared = prepare_run(c, c.specification, panel_method_progress(options.quiet, &stop));
   print_warnings(prepared.warnings);
-  std::vector<ReportTable> tables = static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation));
+  std::vector<std::string> drawings;
+  if (!arguments.draw.empty())
+    drawings = write_pose_drawings(prepared.model, prepared.operation, arguments.draw, options.force);
+  std::vector<ReportTable> tables = static_tables(prepared.model, prepared.operation);
   tables.push_back(phase_table(prepared.model, prepared.operation));
   if (options.json) {
     nlohmann::ordered_json document = {{"schema_version", Summary::kSchemaVersion},
@@ -52,13 +57,16 @@ int run_check(const CommonOptions& options) {
                                        {"program_version", kVersion},
                                        {"duration_s", prepared.operation.planned_duration()},
                                        {"warnings", prepared.warnings},
+                                       {"drawings", drawings},
                                        {"tables", nlohmann::ordered_json::array()}};
     for (const ReportTable& table : tables) document["tables"].push_back(table_json(table));
     fmt::print("{}\n", document.dump(2));
     return kDone;
   }
+  if (options.quiet) return kDone;
   fmt::print("{}: {}\n", c.name, c.title);
   for (const ReportTable& table : tables) fmt::print("\n{}", table_text(table));
+  if (!drawings.empty()) fmt::print("\nDrawn: {}\n", fmt::join(drawings, ", "));
   fmt::print("\nThe operation takes {:.0f} s without waiting for events. The case is valid.\n",
              prepared.operation.planned_duration());
   return kDone;

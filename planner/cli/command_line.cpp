@@ -42,6 +42,7 @@ CLI::Validator one_of(std::vector<std::string> words) { return CLI::IsMember(std
 /// The parsed command line: options and the verb to run.
 struct Request {
   CommonOptions common;
+  CheckArguments check;
   PlanArguments plan;
   HydroArguments hydro;
   FitArguments fit;
@@ -63,7 +64,7 @@ void add_colour_option(CLI::App& verb, Request& r) {
 
 void add_output_options(CLI::App& verb, Request& r) {
   verb.add_flag("--json", r.common.json, "Print the summary as JSON on stdout");
-  verb.add_flag("--quiet", r.common.quiet, "No progress and no messages but errors");
+  verb.add_flag("--quiet", r.common.quiet, "Nothing but errors, and what --json prints");
   add_colour_option(verb, r);
 }
 
@@ -145,10 +146,16 @@ void add_help_verbs(CLI::App& app, Request& r) {
 }
 
 void add_verbs(CLI::App& app, Request& r) {
-  CLI::App* check = app.add_subcommand("check", "Validate a case; print poses, drafts, wires, phases");
+  CLI::App* check =
+      app.add_subcommand("check", "Validate a case; print poses, drafts, natural periods, wires, phases; draw it");
   add_case_options(*check, r);
   add_threads_option(*check, r);
-  check->callback([&r] { r.verb = [&r] { return run_check(r.common); }; });
+  check
+      ->add_option("--draw", r.check.draw,
+                   "Draw the start pose, elevation and plan, into FILE.svg; into a folder: every pose")
+      ->type_name("FILE");
+  check->add_flag("--force", r.common.force, "Replace drawings that exist");
+  check->callback([&r] { r.verb = [&r] { return run_check(r.common, r.check); }; });
 
   CLI::App* hydro = app.add_subcommand(
       "hydro", "Hydrodynamic coefficients of the hulls and the lift's response to waves: tables, files, report");

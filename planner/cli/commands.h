@@ -39,6 +39,10 @@ struct CommonOptions {
   std::optional<int> seed;
 };
 
+struct CheckArguments {
+  std::string draw;  // FILE.svg or a folder; empty = no drawing
+};
+
 struct PlanArguments {
   std::optional<int> evaluations;
   std::optional<double> time_budget;  // s
@@ -70,7 +74,7 @@ struct TuneArguments {
   bool schedule = false;
 };
 
-int run_check(const CommonOptions& options);
+int run_check(const CommonOptions& options, const CheckArguments& arguments);
 int run_hydro(const CommonOptions& options, const HydroArguments& arguments);
 int run_simulate(const CommonOptions& options);
 int run_plan(const CommonOptions& options, const PlanArguments& arguments);

@@ -11,6 +11,7 @@
 #include "planner/cli/hydro_progress.h"
 #include "planner/cli/interrupt.h"
 #include "planner/cli/tables.h"
+#include "planner/document_control.h"
 #include "planner/hydro_report.h"
 #include "planner/hydro_tables.h"
 #include "planner/natural_periods.h"
@@ -121,7 +122,7 @@ class HydroRun {
       for (const double heading : arguments_.headings) headings.push_back(heading * std::numbers::pi / 180.0);
     }
     result_.responses = response_curves(model, headings);
-    result_.periods = period_tables(model, {static_pose(model, model.initial_state(), "start")});
+    result_.periods = period_tables(model, {{"start", model.initial_state()}});
   }
 
   void finish(const Model& model, const RunFolder& folder) {
@@ -131,13 +132,13 @@ class HydroRun {
       for (std::string& file : write_coefficient_files(folder.path(), model, set, result_.warnings))
         files.push_back(std::move(file));
     result_.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    write_or_refuse([&] { write_file(folder.report(), hydro_report(case_, result_, files)); });
-    const std::string summary = hydro_summary(case_, result_, files);
+    write_or_refuse([&] { write_file(folder.report(), hydro_report(case_, result_, files, document_control(case_, date_, folder.case_file()))); });
+    const std::string summary = hydro_summary(case_, result_, files, date_);
     write_or_refuse([&] { write_file(folder.summary(), summary); });  // last: its presence says that all is there
     print_warnings(result_.warnings);
     if (options_.json)
       fmt::print("{}", summary);
-    else
+    else if (!options_.quiet)
       print(folder);
   }
 
@@ -160,6 +161,7 @@ class HydroRun {
   const CommonOptions& options_;
   const HydroArguments& arguments_;
   const std::atomic<bool>& stop_;
+  std::string date_ = date_now();
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   Case case_;
   HydroResult result_;

@@ -14,6 +14,7 @@
 #include "planner/cli/progress.h"
 #include "planner/cli/run_files.h"
 #include "planner/cli/tables.h"
+#include "planner/document_control.h"
 #include "planner/pareto.h"
 #include "planner/plan_results.h"
 #include "planner/sensitivity.h"
@@ -73,12 +74,13 @@ class Conclusion {
  public:
   Conclusion(const CommonOptions& options, const RunFolder& folder, const Evaluator& evaluator,
              const PlanResult& result, const std::optional<TracedFront>& front, const std::string& statement,
-             double wall, const std::atomic<bool>& stop)
+             const std::string& date, double wall, const std::atomic<bool>& stop)
       : options_(options),
         folder_(folder),
         evaluator_(evaluator),
         result_(result),
         statement_(statement),
+        date_(date),
         wall_(wall),
         stop_(stop),
         search_(search_section(evaluator, result, wall)) {
@@ -97,6 +99,7 @@ class Conclusion {
     summary_.case_name = evaluator_.base().name;
     summary_.verb = "plan";
     summary_.program_version = kVersion;
+    summary_.date = date_;
     summary_.wall = wall_;
     add_search(evaluator_, result_, summary_);
     if (certificate_) summary_.certificate = certificate_summary(*certificate_);
@@ -134,12 +137,15 @@ class Conclusion {
     run.limits = deciding_limits(evaluator_, limits);
     run.metrics = deciding_metrics(evaluator_, metrics, run.limits, governing);
     run.warnings = warnings;
+    run.date = date_;
     summary_ = summary_of(run, planned, "plan");
     write_history(folder_, run, planned, "plan");
     const Judgement judgement = judged_plan(x);
     std::filesystem::remove(folder_.judgement());  // of an earlier plan, before --resume
     if (!judgement.empty()) write_or_refuse([&] { write_judgement(judgement, folder_.judgement()); });
     search_.sensitivities = judgement.sensitivities;
+    search_.certificate = judgement.certificate;
+    search_.certificate_kept = judgement.certificate_kept;
     write_run_report(folder_, run, prepare_run(planned, run.specification), planned, statement_, &search_,
                      {history_note(evaluator_, governing)}, judgement.tables);
   }
@@ -153,6 +159,8 @@ class Conclusion {
                    plan.certify * static_cast<int>(std::max<std::size_t>(1, plan.scenarios.size())));
       certificate_ = certify(evaluator_, x, &stop_);
       judgement.tables = certificate_tables(*certificate_);
+      judgement.certificate = certificate_sentence(*certificate_);
+      judgement.certificate_kept = keeps_hard_limits(*certificate_);
     }
     if (plan.gradient_algorithm != "none") {
       const PlanSensitivities sensitivities = plan_sensitivities(evaluator_, x);
@@ -171,6 +179,7 @@ class Conclusion {
       fmt::print("{}\n", summary_json(summary_));
       return;
     }
+    if (options_.quiet) return;
     if (result_.search.evaluations > 0) fmt::print("{}\n", search_text(search_));
     if (certificate_) fmt::print("{}\n", certificate_text(*certificate_));
     if (summary_of_front_) fmt::print("{}\n", front_text(*summary_of_front_));
@@ -196,6 +205,7 @@ class Conclusion {
   const Evaluator& evaluator_;
   const PlanResult& result_;
   const std::string& statement_;
+  std::string date_;
   double wall_;
   const std::atomic<bool>& stop_;
   SearchSection search_;
@@ -208,18 +218,14 @@ class Conclusion {
 
 int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::string date = date_now();
   const std::atomic<bool>& stop = catch_interrupts();
   const Case c = load_plan_case(options, arguments);
   const std::string statement = statement_of(options.input);
   const Evaluator evaluator(c, &stop);
   check_algorithms(evaluator);
   // A baseline that cannot be built is a fault of the case; only the points of a search are graded.
-  std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < evaluator.scenarios().size(); ++i)
-    add_new(warnings, prepare_run(c, specification_at(evaluator, evaluator.baseline(), i),
-                                  panel_method_progress(options.quiet, &stop))
-                          .warnings);
-  print_warnings(warnings);
+  print_warnings(scenario_warnings(evaluator, c, panel_method_progress(options.quiet, &stop)));
 
   const RunFolder folder(folder_path(options, c, "plan"), arguments.resume ? RunFolder::Mode::resume
                                                           : options.force  ? RunFolder::Mode::replace
@@ -252,7 +258,7 @@ int run_plan(const CommonOptions& options, const PlanArguments& arguments) {
   }
   progress.clear();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  return Conclusion(options, folder, evaluator, result, front, statement, wall.count(), stop).finish();
+  return Conclusion(options, folder, evaluator, result, front, statement, date, wall.count(), stop).finish();
 }
 
 }  // namespace stillhook

@@ -1,6 +1,7 @@
 #include "planner/cli/run_files.h"
 
 #include "planner/cli/commands.h"
+#include "planner/document_control.h"
 #include "planner/static_tables.h"
 #include "planner/version.h"
 #include "problems/case_sources.h"
@@ -23,7 +24,7 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                       const std::vector<ReportTable>& tables) {
   const std::vector<StaticPose> poses = solve_poses(prepared.model);
   std::vector<ReportTable> all = tables;
-  for (ReportTable& table : static_tables(prepared.model, all_static_poses(prepared.model, prepared.operation)))
+  for (ReportTable& table : static_tables(prepared.model, prepared.operation))
     all.push_back(std::move(table));
   std::vector<BasisEntry> basis;
   for (const CaseSource& source : case_sources(c)) basis.push_back({source.key, source.value, source.remark});
@@ -40,7 +41,9 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                         std::move(all),
                         search,
                         run.warnings.empty() ? prepared.warnings : run.warnings,
-                        std::move(basis)};
+                        std::move(basis),
+                        document_control(c, run.date, folder.case_file()),
+                        c.north};
   write_or_refuse([&] { write_report(data, folder.report()); });
 }
 

@@ -110,8 +110,9 @@ std::string verdict_text(const Metrics& metrics, const std::vector<LimitCheck>& 
   const LimitCheck* governing = governing_check(limits);
   const std::string unit = governing->unit == "1" ? "" : " " + governing->unit;
   const std::string value = std::isfinite(governing->value) ? short_number(governing->value) + unit : "no value";
-  const std::string by = fmt::format(", governed by {}: {}, limit {}{}", metric_text(governing->metric), value,
-                                     short_number(governing->limit), unit);
+  const std::string use = limit_use_text(*governing);
+  const std::string by = fmt::format(", governed by {}: {}, limit {}{}{}", metric_text(governing->metric), value,
+                                     short_number(governing->limit), unit, use.empty() ? "" : " (" + use + ")");
   if (metrics.status != RunStatus::completed) return coloured(Colour::bad, "NOT COMPLETED") + by;
   return (within_limits(metrics, limits) ? coloured(Colour::good, "WITHIN LIMITS")
                                          : coloured(Colour::bad, "NOT WITHIN LIMITS")) +

@@ -301,9 +301,16 @@ std::vector<std::vector<std::size_t>> coupled_hulls(const std::vector<BodySpec>&
     const auto partner =
         std::find_if(bodies.begin(), bodies.end(), [&](const BodySpec& body) { return body.name == other; });
     const std::size_t k = static_cast<std::size_t>(partner - bodies.begin());
-    if (partner == bodies.end() || i == k || taken[i] || taken[k])
+    const auto refuse = [&](const std::string& why) {
       throw SpecificationError(entry_of(bodies[i]), "coupled_with",
-                               "a hull can be coupled with one other hull, and '" + other + "' is none or taken");
+                               why + ": name one other body with a hull, or leave the key out");
+    };
+    if (partner == bodies.end()) refuse("there is no body '" + other + "'");
+    if (i == k) refuse("a hull cannot be coupled with itself");
+    if (taken[i] && std::find(groups.begin(), groups.end(), std::vector{k, i}) != groups.end()) continue;  // said twice
+    for (const std::size_t hull : {i, k})
+      if (taken[hull])
+        refuse("a hull can be coupled with one other hull alone, and '" + bodies[hull].name + "' is coupled already");
     taken[i] = taken[k] = true;
     groups.push_back({i, k});
   }

@@ -42,11 +42,11 @@ TEST_CASE("the verdict names the criterion that governs", "[colour]") {
   heel.margin = 0.5;
   heel.pass = true;
   const std::string governed = ", governed by heel_max (largest heel of any crane vessel, waves included): ";
-  CHECK(verdict_text(metrics, {heel}) == "WITHIN LIMITS" + governed + "4.5 deg, limit 5 deg");
+  CHECK(verdict_text(metrics, {heel}) == "WITHIN LIMITS" + governed + "4.5 deg, limit 5 deg (90 % of what it allows)");
   heel.value = 6.0;
   heel.margin = -1.0;
   heel.pass = false;
-  CHECK(verdict_text(metrics, {heel}) == "NOT WITHIN LIMITS" + governed + "6 deg, limit 5 deg");
+  CHECK(verdict_text(metrics, {heel}) == "NOT WITHIN LIMITS" + governed + "6 deg, limit 5 deg (120 % of what it allows)");
   metrics.status = RunStatus::interrupted;
   CHECK_THAT(verdict_text(metrics, {heel}), Catch::StartsWith("NOT COMPLETED"));
   CHECK(verdict_text(metrics, {}) == "No limits to keep.");

@@ -20,6 +20,7 @@ TEST_CASE("simulate: a run that diverges ends with exit code 4, says where, and 
   CHECK(result.code == 4);
   for (const char* part : {"diverged at t = 5.0", "in phase 'wait'", "body 'shot' has left the scene"})
     CHECK_THAT(result.err, Catch::Contains(part));
+  CHECK_THAT(result.err, !Catch::Contains("diverged: diverged"));
   const json summary = json::parse(result.out);
   CHECK(summary.at("status").dump().find("diverged") != std::string::npos);
   CHECK(summary.dump().find("body 'shot' has left the scene") != std::string::npos);

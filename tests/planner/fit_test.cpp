@@ -49,6 +49,23 @@ TEST_CASE("fit leaves a case that other verbs take, a summary and a report", "[c
   CHECK(run(folder, {"fit", "buoy.toml", "--measured", "run.csv"}).code == 2);
 }
 
+TEST_CASE("fit refuses to go where the plan of the same case may not", "[cli][fit]") {
+  const FitFolder folder;
+  const auto fit = [&](const std::string& lower, const std::string& upper) {
+    std::ofstream(folder / "planned.toml") << content(folder / "buoy.toml")
+                                           << "[plan.objective]\nduration = { weight = 1.0, scale = 100.0 }\n[plan.variables]\n\""
+                                           << kDamping << "\" = { min = " << lower << ", max = " << upper << " }\n";
+    return run(folder, {"fit", "planned.toml", "--measured", "run.csv", "--out", "planned", "--force", "--quiet"});
+  };
+  const Result narrow = fit("50.0", "70.0");
+  CHECK(narrow.code == 2);
+  CHECK_THAT(narrow.err, Contains("goes from 0 to 500") && Contains("from 50 to 70 only") && Contains("Widen"));
+  const Result wide = fit("0.0", "500.0");
+  INFO(wide.err);
+  CHECK(wide.code == 0);
+  CHECK_NOTHROW(read_case(folder / "planned/fitted.toml"));
+}
+
 TEST_CASE("fit says what it cannot do with exit code 2", "[cli][fit][bad_input]") {
   const FitFolder folder;
   const auto told = [&](const std::vector<std::string>& more) {

@@ -140,9 +140,9 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
     CHECK(page.find(part) != std::string::npos);
 
   CHECK(run_hydro(folder, {"hydro", file}).code == 2);  // the folder is taken
-  const Result second = run_hydro(folder, {"hydro", file, "--force", "--quiet"});
+  const Result second = run_hydro(folder, {"hydro", file, "--force"});
   REQUIRE(second.code == 0);
-  CHECK(second.err.empty());
+  CHECK(second.err.find("computes") == std::string::npos);
   CHECK(second.out.find("taken from the cache") != std::string::npos);
   for (const char* part : {"Added mass of barge", "Radiation damping of barge", "Self-checks", "passivity margin"})
     CHECK(second.out.find(part) != std::string::npos);
@@ -151,8 +151,9 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
 
 TEST_CASE("hydro refuses coefficients that fail a check, and says so when they are accepted", "[hydro]") {
   const Folder folder;
-  // Kramers and Kronig find 0.28 in roll on panels of 25 m, 0.06 are allowed.
-  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.4\nfit_tolerance = 0.05");
+  // Retardation functions come from a state space that is asked for 2 %: no set has A and B to 0.1 %.
+  const std::string file = write_case(
+      folder, "kind = \"panels\"", "refinement = 0.4\nfit_tolerance = 0.05\nkramers_kronig_tolerance = 0.001");
   const Result accepted = run_hydro(folder, {"hydro", file, "--json"});
   INFO(accepted.err);
   REQUIRE(accepted.code == 0);
@@ -167,7 +168,9 @@ TEST_CASE("hydro refuses coefficients that fail a check, and says so when they a
   const Result refused =
       run_hydro(folder, {"hydro", file, "--out", "refused", "--set", "panel_method.accept_failed_checks=\"\""});
   CHECK(refused.code == 2);
-  CHECK_THAT(refused.err, Catch::Contains("the coefficients fail") && Catch::Contains("accept_failed_checks"));
+  CHECK_THAT(refused.err, Catch::Contains("the coefficients fail") && Catch::Contains("accept_failed_checks") &&
+                              Catch::Contains("panel_method.kramers_kronig_tolerance") &&
+                              Catch::Contains("panel_method.refinement = 0.56 takes"));
   CHECK_FALSE(fs::exists(folder / "refused/summary.json"));
 }
 

@@ -27,6 +27,18 @@ TEST_CASE("tune lowers the objective and leaves a case that simulate takes", "[c
   CHECK(run(folder, {"simulate", folder / "tuned/tuned.toml", "--quiet"}).code == 0);
 }
 
+TEST_CASE("tune says what the model leaves out, as the other verbs do", "[cli][tune]") {
+  const Folder folder;
+  // In the shallow water of 8 m the swell of 7 s feels the bottom; the barge's lines do not hold it sideways.
+  const Result r = run(folder, {"tune", kCase, "--out", "t", "--evaluations", "3", "--json", "--set", "sea.depth_m=8"});
+  INFO(r.err);
+  REQUIRE(r.code == 0);
+  CHECK_THAT(r.err, Contains("warning: the waves feel the bottom") && Contains("barge is not held in y"));
+  const auto warnings = nlohmann::json::parse(r.out)["warnings"].dump();
+  CHECK_THAT(warnings, Contains("the waves feel the bottom") && Contains("barge is not held in y"));
+  CHECK_THAT(content(folder / "t/report.html"), Contains("the waves feel the bottom"));
+}
+
 TEST_CASE("tune: the verdict is that of its limits, and the map shows objectives", "[cli][tune]") {
   const Folder folder;
   const Result r = run(folder, {"tune", kCase, "--out", "t", "--evaluations", "4", "--map", "3", "--json", "--quiet"});

@@ -1,8 +1,13 @@
 // Runs that no lift would come through.
 #include "results/failures.h"
 
-#include <catch2/catch.hpp>
+#include <unistd.h>
 
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "results/deck_corners.h"
 #include "results/limits.h"
 #include "results/metrics.h"
 #include "results/summary.h"
@@ -59,6 +64,25 @@ TEST_CASE("a deck under water at rest fails the run", "[failures]") {
   const Metrics m = compute_metrics(lift.specification, lift.trajectory);
   CHECK(m.status == RunStatus::failed);
   CHECK_THAT(m.message, Contains("crane has no freeboard at 420.0 s") && Contains("0.55 m under water"));
+}
+
+TEST_CASE("the deck of a mesh hull under water fails the run as that of a box does, what lies lower does not", "[failures]") {
+  // The hull of the crane as a file, a box like it: deck edges at 3.5 m, 23 m from the centre line.
+  const std::string file = (std::filesystem::temp_directory_path() / ("stillhook_deck_" + std::to_string(::getpid()) + ".obj")).string();
+  std::ofstream(file) << "v -55 -23 -4\nv 55 -23 -4\nv 55 23 -4\nv -55 23 -4\nv -55 -23 3.5\nv 55 -23 3.5\nv 55 23 3.5\n"
+                         "v -55 23 3.5\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  SyntheticLift lift;
+  HullSpec& hull = lift.specification.bodies[0].hull;
+  hull.shape = HullSpec::Shape::mesh;
+  hull.mesh_file = file;
+  CHECK(deck_corners(hull).size() == 4);  // not those of the bottom
+  CHECK(compute_metrics(lift.specification, lift.trajectory).status == RunStatus::completed);
+  // 10 deg: 3.5 cos 10 deg - 23 sin 10 deg = -0.55 m. In every pose the bottom is under water, which is no fault.
+  lift.trajectory.static_poses[3].bodies[0] = Pose{rotation_from({10.0 / 57.29577951308232, 0.0, 0.0}), Vector3::Zero()};
+  const Metrics m = compute_metrics(lift.specification, lift.trajectory);
+  CHECK(m.status == RunStatus::failed);
+  CHECK_THAT(m.message, Contains("crane has no freeboard at 420.0 s") && Contains("0.55 m under water"));
+  std::filesystem::remove(file);
 }
 
 TEST_CASE("a load that swings out of the crane's reach fails the run", "[failures]") {
