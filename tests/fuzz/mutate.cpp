@@ -122,35 +122,47 @@ void damage_bytes(std::string& text, Random& random) {
 }
 
 void damage_text(std::string& text, const std::vector<std::string>& seeds, Random& random) {
-  switch (below(random, 6)) {
-    case 0: {
+  switch (below(random, 16)) {
+    case 0:  // the end cut off: seldom, since nothing after it can show anything
+      text.resize(below(random, text.size()));
+      break;
+    case 1:
+    case 2: {
       const auto [begin, end] = number_near(text, random);
       if (end > begin) text.replace(begin, end - begin, awkward(random));
       break;
     }
-    case 1:
+    case 3:
+    case 4:
       text.insert(below(random, text.size()), awkward(random));
       break;
-    case 2: {
+    case 5:
+    case 6: {
       const auto [begin, end] = line_near(text, random);
       text.erase(begin, end - begin);
       break;
     }
-    case 3: {
+    case 7:
+    case 8: {
       const auto [begin, end] = line_near(text, random);
       const std::string line = text.substr(begin, std::min<std::size_t>(end - begin, 4000));
       text.insert(line_near(text, random).first, line);
       break;
     }
-    case 4: {
+    case 9:
+    case 10: {
       const std::string& other = seeds[below(random, seeds.size())];
       if (other.empty()) break;
       const std::size_t from = below(random, other.size());
       text.insert(below(random, text.size()), other.substr(from, 1 + below(random, 400)));
       break;
     }
-    default:
-      text.resize(below(random, text.size()));
+    default: {  // another number of the same length: what is still a number gets further into a reader
+      const auto [begin, end] = number_near(text, random);
+      for (std::size_t k = begin; k < end; ++k)
+        if (std::isdigit(static_cast<unsigned char>(text[k])) && random() % 2)
+          text[k] = static_cast<char>('0' + below(random, 10));
+    }
   }
 }
 
@@ -159,7 +171,7 @@ void damage_text(std::string& text, const std::vector<std::string>& seeds, Rando
 std::string damaged(const std::vector<std::string>& seeds, std::uint64_t number) {
   Random random(number * 0x9E3779B97F4A7C15ULL + 1);
   std::string text = seeds[below(random, seeds.size())];
-  const std::size_t damages = 1 + below(random, 8);
+  const std::size_t damages = random() % 2 ? 1 : 2 + below(random, 7);  // one alone gets furthest
   for (std::size_t k = 0; k < damages && !text.empty(); ++k) {
     if (random() % 3 == 0)
       damage_bytes(text, random);

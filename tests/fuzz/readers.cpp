@@ -1,5 +1,6 @@
 #include "tests/fuzz/readers.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -23,60 +24,50 @@ std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-bool read_case_file(const std::string& path) {
+template <typename Refusal, typename Read>
+std::string refusal_of(const Read& read) {
   try {
-    read_case(path);
-    return true;
-  } catch (const CaseError&) {
-    return false;
+    read();
+    return "";
+  } catch (const Refusal& error) {
+    return *error.what() ? error.what() : "refused without a word";
   }
 }
 
-bool read_mesh_file(const std::string& path) {
+std::string read_case_file(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_case(path); });
+}
+
+std::string read_mesh_file(const std::string& path) {
   MeshFileOptions options;
   options.mend = true;
-  try {
-    read_mesh(path, options);
-    return true;
-  } catch (const MeshError&) {
-    return false;
-  }
+  return refusal_of<MeshError>([&] { read_mesh(path, options); });
 }
 
 DatabaseOptions database_options() {
   DatabaseOptions options;
   options.frame.length = 40.0;
   options.frame.port_starboard = false;
+  options.frame.bodies[0].volume = 20240.0;  // WAMIT's files do not hold it
   options.wamit.density = 1025.0;
   options.wamit.gravity = 9.80665;
   return options;
 }
 
-bool read_coefficients(const std::string& path) {
-  try {
-    read_database(path, database_options());
-    return true;
-  } catch (const SpecificationError&) {
-    return false;
-  }
+std::string read_coefficients(const std::string& path) {
+  return refusal_of<SpecificationError>([&] { read_database(path, database_options()); });
 }
 
-bool read_measured(const std::string& path) {
-  try {
-    read_measured_table(path, {"t_s", "z_m"});
-    return true;
-  } catch (const CaseError&) {
-    return false;
-  }
+std::string read_measured(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_measured_table(path, {"t_s", "z_m"}); });
 }
 
-bool read_history(const std::string& path) {
-  try {
-    read_archive(path);
-    return true;
-  } catch (const FileError&) {
-    return false;
-  }
+std::string read_measured_history(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_measured_table(path, {"time", "load.x"}); });
+}
+
+std::string read_history(const std::string& path) {
+  return refusal_of<FileError>([&] { read_archive(path); });
 }
 
 SearchProblem two_variables() {
@@ -88,19 +79,16 @@ SearchProblem two_variables() {
   return problem;
 }
 
-bool read_store(const std::string& path) {
-  try {
+std::string read_store(const std::string& path) {
+  return refusal_of<StoreError>([&] {
     EvaluationStore store(path, {"1", "fuzz"}, two_variables());
     store.find(Eigen::VectorXd::Constant(2, 0.5));
     store.find(Eigen::VectorXd::Constant(2, 0.25), true);
-    return true;
-  } catch (const StoreError&) {
-    return false;
-  }
+  });
 }
 
 HydrodynamicCoefficients small_set() {
-  HydrodynamicCoefficients c = read_coefficient_file(kSource + "/problems/hulls/crane_110x46x4.csv");
+  HydrodynamicCoefficients c = read_coefficient_file(kSource + "/tests/fuzz/corpus/coefficients/box.csv");
   c.waterplane = {110.0 * 46.0};
   return c;
 }
@@ -127,23 +115,58 @@ std::string written_store(const std::string& folder) {
   return content_of(path);
 }
 
-std::string column_of_numbers(const std::string& separator) {
-  std::string text = "t_s" + separator + "z_m\n";
-  for (int i = 0; i < 40; ++i) text += std::to_string(0.1 * i) + separator + std::to_string(0.01 * (i % 7)) + "\n";
-  return text;
+/// The kept files of a reader: those named fault-* are what it once failed at, the others are good.
+std::vector<std::string> kept(const std::string& reader, bool faults) {
+  std::vector<std::filesystem::path> paths;
+  const std::filesystem::path folder = kSource + "/tests/fuzz/corpus/" + reader;
+  if (std::filesystem::exists(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().filename().string().starts_with("fault-") == faults) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());  // the inputs must not depend on the order of a folder
+  std::vector<std::string> contents;
+  for (const auto& path : paths) contents.push_back(content_of(path.string()));
+  return contents;
+}
+
+const std::string kCaseWithHull = R"(name = "fuzz"
+[sea]
+active = "swell"
+[[sea.states]]
+name = "swell"
+type = "regular"
+amplitude_m = 0.2
+frequency_rad_per_s = 0.8
+[[bodies]]
+name = "hull"
+mass_t = 20746.0
+gyration_m = [14.0, 30.0, 30.0]
+[bodies.hull]
+)";
+const std::string kOperation = R"(
+[[operation.phases]]
+name = "float"
+duration_s = 10.0
+)";
+
+std::string case_with_mesh(const std::string& file) {
+  return kCaseWithHull + "shape = \"mesh\"\nmesh_file = \"" + file + "\"\n" + kOperation;
+}
+
+std::string case_with_coefficients(const std::string& file) {
+  const std::string kind = file.ends_with(".csv") ? "table" : "database";
+  return kCaseWithHull + "shape = \"box\"\nsize_m = [110.0, 46.0, 8.0]\n[bodies.hydrodynamics]\nkind = \"" + kind +
+         "\"\ncoefficient_file = \"" + file + "\"\n" + kOperation;
 }
 
 }  // namespace
 
 std::vector<Reader> readers(const std::string& folder) {
+  std::filesystem::copy(kSource + "/problems/hulls", folder + "/hulls");  // of the case from problems/
   const HydrodynamicCoefficients set = small_set();
   DatabaseFrame frame = database_options().frame;
   write_bemio(folder + "/seed.h5", set, frame, {BemioBody{"crane"}});
-  write_wamit(folder + "/seed", set, database_options().wamit, frame);
-  const std::string stl =
-      "solid box\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
-      "0\nendloop\nendfacet\nendsolid box\n";
-  const std::string gdf = "box\n1 9.80665\n0 0\n1\n0 0 0 1 0 0 1 1 0 0 1 0\n";
+  const Matrix6 stiffness = Vector6(0.0, 0.0, 5e7, 8e9, 4e10, 0.0).asDiagonal();
+  write_wamit(folder + "/seed", set, database_options().wamit, frame, {stiffness});
   std::vector<Reader> all = {
       {"case",
        "case.toml",
@@ -151,26 +174,24 @@ std::vector<Reader> readers(const std::string& folder) {
         content_of(kSource + "/tests/planner/cases/small_lift.toml"),
         content_of(kSource + "/problems/manifold_installation.toml")},
        read_case_file},
-      {"stl", "mesh.stl", {stl}, read_mesh_file},
-      {"obj",
-       "mesh.obj",
-       {content_of(kSource + "/tests/bad_input/inverted.obj"), content_of(kSource + "/tests/bad_input/open.obj")},
-       read_mesh_file},
-      {"gdf", "mesh.gdf", {gdf}, read_mesh_file},
-      {"coefficients",
-       "set.csv",
-       {content_of(kSource + "/problems/hulls/crane_110x46x4.csv").substr(0, 60'000)},
-       read_coefficients},
-      {"wamit", "seed.1", {content_of(folder + "/seed.1")}, read_coefficients},
-      {"bemio", "set.h5", {content_of(folder + "/seed.h5")}, read_coefficients},
-      {"measured-csv",
-       "record.csv",
-       {column_of_numbers(","), column_of_numbers("\t"), column_of_numbers(";")},
-       read_measured},
-      {"measured-netcdf", "record.nc", {written_history(folder)}, read_measured},
+      {"stl", "mesh.stl", {}, read_mesh_file, case_with_mesh("mesh.stl")},
+      {"obj", "mesh.obj", {}, read_mesh_file, case_with_mesh("mesh.obj")},
+      {"gdf", "mesh.gdf", {}, read_mesh_file, case_with_mesh("mesh.gdf")},
+      {"coefficients", "set.csv", {}, read_coefficients, case_with_coefficients("set.csv")},
+      {"wamit", "seed.1", {content_of(folder + "/seed.1")}, read_coefficients, case_with_coefficients("seed.1")},
+      {"wamit-forces", "seed.3", {content_of(folder + "/seed.3")}, read_coefficients},
+      {"wamit-stiffness", "seed.hst", {content_of(folder + "/seed.hst")}, read_coefficients},
+      {"bemio", "set.h5", {content_of(folder + "/seed.h5")}, read_coefficients, case_with_coefficients("set.h5")},
+      {"measured-csv", "record.csv", {}, read_measured},
+      {"measured-netcdf", "record.nc", {written_history(folder)}, read_measured_history},
       {"history", "history.nc", {written_history(folder)}, read_history},
       {"store", "evaluations.sqlite", {written_store(folder)}, read_store},
   };
+  for (Reader& reader : all) {
+    for (std::string& seed : kept(reader.name, false)) reader.seeds.push_back(std::move(seed));
+    reader.faults = kept(reader.name, true);
+    if (reader.name == "case") reader.program_case = "itself";
+  }
   std::filesystem::remove(folder + "/seed.h5");
   return all;
 }

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/program_path.h"
+
 namespace stillhook {
 
 /// A folder that is gone with the test.
@@ -48,7 +50,7 @@ inline pid_t start(const Folder& folder, std::vector<std::string> arguments, con
   const int err = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
-  arguments.insert(arguments.begin(), STILLHOOK_PROGRAM);
+  arguments.insert(arguments.begin(), program_path());
   std::vector<char*> argv;
   for (std::string& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);

@@ -1,5 +1,7 @@
 #include "sim/hull/coefficient_file.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +20,7 @@ class TemporaryFile {
   explicit TemporaryFile(const std::string& text) {
     static int count = 0;
     path_ = (std::filesystem::temp_directory_path() /
-             ("stillhook_coefficients_" + std::to_string(std::hash<std::string>{}(text)) + "_" +
+             ("stillhook_coefficients_" + std::to_string(::getpid()) + "_" +
               std::to_string(count++) + ".csv"))
                 .string();
     std::ofstream(path_, std::ios::binary) << text;
