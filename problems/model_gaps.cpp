@@ -116,7 +116,7 @@ void find_unheld(const Model& model, const Operation& operation, std::vector<std
       const std::string how = std::isfinite(period) ? fmt::format("its period there is {:.0f} s", period)
                                                     : std::string("nothing brings it back");
       gaps.push_back(fmt::format("{} is not held in {}: {}; waves and the moves of the crane carry it off, and what it "
-                                 "sets down lands off the target. Give it [[moorings]] that pull that way",
+                                 "sets down lands off the target. Give it [[moorings]] or a [[restoring]] spring that pull that way",
                                  vessel, axis == 0 ? "x" : "y", how));
     }
   }

@@ -1,6 +1,9 @@
 #include "results/archive_stream.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "results/archive_layout.h"
@@ -15,10 +18,33 @@ namespace {
 constexpr double kSyncEvery = 100.0;         // s of simulated time
 constexpr std::size_t kSyncSamples = 10000;  // or as many samples, if they are dense
 constexpr std::size_t kContacts = 4096;      // events that a growing file has room for
+constexpr double kFirstRoom = 64e6;          // bytes of samples: a longer run gets more when it comes to need it
 
-std::size_t room_for(const SampleForecast& forecast) {
+double sample_bytes(std::size_t channels) { return static_cast<double>(sizeof(double) * (channels + 1)); }
+
+/// Samples that a growing file of so many channels has room for at first: the whole run if it is of ordinary length.
+std::size_t room_for(const SampleForecast& forecast, std::size_t channels) {
   // A run that waits for events takes longer than planned, most of them by less than this.
-  return forecast.expected + forecast.expected / 50 + static_cast<std::size_t>(kSyncEvery / forecast.interval) + 1;
+  const std::size_t whole = forecast.expected + forecast.expected / 50 +
+                            static_cast<std::size_t>(kSyncEvery / forecast.interval) + 1;
+  return std::min(whole, static_cast<std::size_t>(kFirstRoom / sample_bytes(channels)) + 1);
+}
+
+/// Throws FileError when the run as planned will not fit on the disk: before hours are spent on it, not after them.
+void require_space(const std::string& path, const SampleForecast& forecast, std::size_t channels) {
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (error) return;  // a file system that does not tell; writing will
+  const double samples = static_cast<double>(forecast.expected), needed = samples * sample_bytes(channels);
+  if (needed <= static_cast<double>(space.available)) return;
+  throw FileError(
+      fmt::format("{}: the run is planned to last {:.6g} s, which is {:.3g} samples of {} channels, {:.3g} GB, and the "
+                  "disk has {:.3g} GB free: shorten the run (solver.max_duration_s, duration_s of the phases, faster "
+                  "moves) or record less often (solver.output_interval_s, {:.6g} s here)",
+                  path, samples * forecast.interval, samples, channels, needed / 1e9,
+                  static_cast<double>(space.available) / 1e9, forecast.interval));
 }
 
 }  // namespace
@@ -162,7 +188,8 @@ void ArchiveStream::open(const Trajectory& run, const SampleForecast& forecast) 
   forecast_ = forecast;
   synced_ = forecast.begin;
   values_.assign(run.channels.size(), {});
-  file_ = std::make_shared<Growing>(path_, title_, run, forecast, room_for(forecast));
+  require_space(path_, forecast, run.channels.size());
+  file_ = std::make_shared<Growing>(path_, title_, run, forecast, room_for(forecast, run.channels.size()));
   file_->publish();
 }
 

@@ -16,6 +16,7 @@ namespace {
 constexpr int kHalvings = 8;              // of a step that does not converge
 constexpr double kProgressEvery = 5.0;    // s, simulated
 constexpr const char* kWholeRun = "run";  // the phase of a run without an operation
+constexpr double kMostSamples = 1e15;     // that a forecast says: no disk holds them, and they are still a number
 constexpr double kLost = 1e5;             // m from the origin: no longer a lift
 
 // One run; its parts share the state.
@@ -66,7 +67,7 @@ class Run {
       next_progress += kProgressEvery;
       if (!options_.progress(t, end_expected(t))) {
         out_.status = RunStatus::interrupted;
-        out_.message = "interrupted at " + std::to_string(t) + " s";
+        out_.message = "interrupted at " + number_text(t) + " s";
         break;
       }
     }
@@ -90,7 +91,7 @@ class Run {
     SampleForecast f;
     f.begin = state_.t;
     f.interval = interval;
-    f.expected = 1 + static_cast<std::size_t>(std::max(0.0, planned_end() - f.begin) / interval);
+    f.expected = 1 + static_cast<std::size_t>(std::clamp((planned_end() - f.begin) / interval, 0.0, kMostSamples));
     for (const Phase& p : operation_.phases) f.phases.push_back({p.name, p.stage});
     if (f.phases.empty()) f.phases.push_back({kWholeRun, PhaseSpec::Stage::hanging});
     return f;

@@ -55,12 +55,14 @@ class HhtStepper {
   void apply(const SystemState& from, double h);
   bool residual(double h);
   void factorise(double h);
+  bool multipliers_settled(double left) const;
   bool iterate(const SystemState& from, double h, Renew renew);
   bool converge(const SystemState& from, double h);
 
   const MultibodySystem& system_;
   HhtOptions options_;
   double beta_, gamma_, lambda_scale_;
+  double least_lambda_ = 0.0;  // N: the weight of the heaviest body on a joint; multipliers are right to a share of it
   const MatrixX* mass_ = nullptr;  // of the phase
   SystemWorkspace work_;
   SystemState next_;

@@ -35,6 +35,21 @@ TEST_CASE("a load that goes through the surface is told, one that stays in air i
                  Contains("without a hull it has no buoyancy"));
 }
 
+TEST_CASE("a phase that takes a hull through the surface and far beyond is told, phases of its height are not", "[gaps]") {
+  const auto gaps = [](std::vector<Override> more) {
+    const Case c = read_case(std::string(STILLHOOK_SOURCE_DIR) + "/tests/lifts/deep_lowering.toml", std::move(more));
+    const Model model = build_model(c.specification);
+    std::string all;
+    for (const std::string& gap : model_gaps(model, build_operation(model))) all += gap + "\n";
+    return all;
+  };
+  // As written, phases end 0 m over and 0 m under the surface. With the first of them 5 m higher the splash zone is of
+  // 7.5 m for a hull of 2.5 m.
+  CHECK_THAT(gaps({}), !Contains("evenly"));
+  CHECK_THAT(gaps({{"operation.phases.to_the_surface.moves.winch.goal.value_m", "4.25"}}),
+             Contains("phase splash_zone takes module through the surface and beyond") && Contains("end one phase where"));
+}
+
 TEST_CASE("a vessel that no line holds is told", "[gaps]") {
   // Both lines pull along x: y has the pretension over the distance alone, 2 * 50 kN / 200 m = 0.5 kN/m for 2,000 t of
   // barge and added mass, 2 pi sqrt(2000/0.5) = 400 s.

@@ -158,3 +158,35 @@ TEST_CASE("a stream that cannot be written says so and leaves what was there", "
   }
   CHECK(read_archive(path).time.size() == lift.trajectory.time.size());
 }
+
+TEST_CASE("a run that will not fit on the disk is refused before it begins, and a long one takes its place as it goes",
+          "[archive]") {
+  const truth::SyntheticLift lift;
+  const TemporaryFolder folder;
+  const std::string path = folder / "history.nc";
+  {  // 1e13 samples of 8 bytes and more are 80 TB for each channel: more than any disk that this test will see.
+    ArchiveStream stream(path, kTitle);
+    Trajectory run;
+    try {
+      play(lift.trajectory, stream, run, 1e9, 10'000'000'000'000);
+      FAIL("a run of 1e13 samples was begun");
+    } catch (const FileError& error) {
+      const std::string said = error.what();
+      CAPTURE(said);
+      CHECK_THAT(said, Catch::Contains(path));
+      CHECK_THAT(said, Catch::Contains("solver.output_interval_s, 0.2 s here"));
+      CHECK_THAT(said, Catch::Contains("solver.max_duration_s"));
+      CHECK_THAT(said, Catch::Contains("planned to last 2e+12 s"));
+    }
+    CHECK(folder.files() == 0);
+  }
+  // A million samples of these channels are some hundred MB, of which the run uses a two-hundredth part: the file is
+  // of 64 MB of samples and a little more (phases, 4096 contacts), and grows when it must. It comes out whole.
+  ArchiveStream stream(path, kTitle);
+  Trajectory run;
+  REQUIRE(lift.trajectory.channels.size() * 8e6 > 100e6);
+  play(lift.trajectory, stream, run, 1e9, 1'000'000);
+  CHECK(fs::file_size(path) < 70'000'000);
+  stream.finish(run);
+  CHECK(run.time == lift.trajectory.time);
+}

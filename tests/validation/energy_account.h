@@ -32,7 +32,7 @@ struct EnergyAccount {
   std::map<std::string, double> gear;  // J, by element, largest that is missing from the second
   double largest_kinetic = 0.0;        // J
   double gap = 0.0, gap_rate = 0.0;    // largest row of C(q) (m) and of C_q u (m/s)
-  double tooth = 0.0;                  // N, largest amplitude of a saw-tooth of a joint force over six steps
+  double tooth = 0.0;                  // N, N m, largest saw-tooth of a joint's multiplier over six steps
   double end = 0.0;                    // s
   std::vector<ContactEvent> contacts;
 };
