@@ -90,14 +90,16 @@ void ChannelBoard::measure_joint(std::size_t j, const SystemState& state) {
   for (int k = 0; k < 3; ++k) *out++ = moment[k];
 }
 
-void ChannelBoard::measure(Source source, int index, SystemState& state, SystemWorkspace& work) {
+void ChannelBoard::measure(Source source, int index, SystemState& state, SystemWorkspace& work, Branches* branches) {
   switch (source) {
     case Source::body:
       measure_body(static_cast<std::size_t>(index), state);
       break;
     case Source::element: {
       const std::size_t first = element_offset_[index], count = element_offset_[index + 1] - first;
-      model_.system().elements[index]->measure(state.instant(), model_.system().memory(index, state, work),
+      Instant now = state.instant();
+      now.branches = branches;
+      model_.system().elements[index]->measure(now, model_.system().memory(index, state, work),
                                                std::span(values_).subspan(first, count));
       break;
     }

@@ -16,7 +16,8 @@ class ChannelBoard {
   void measure(SystemState& state, SystemWorkspace& work, int phase);
   /// Fills the channels of one source alone.
   enum class Source { body, element, drive, joint, rest };
-  void measure(Source source, int index, SystemState& state, SystemWorkspace& work);
+  /// Along `branches` of the element's law, if given.
+  void measure(Source source, int index, SystemState& state, SystemWorkspace& work, Branches* branches = nullptr);
   /// Which source a channel belongs to, and its index.
   std::pair<Source, int> source_of(int channel) const;
   std::span<const double> values() const { return values_; }

@@ -41,7 +41,7 @@ void TangentPass::choose_parts(const std::vector<std::string>& channels) {
     const auto [source, index] = board_.source_of(channel);
     auto part = std::find_if(parts_.begin(), parts_.end(),
                              [&](const Part& p) { return p.source == source && p.index == index; });
-    if (part == parts_.end()) part = parts_.insert(parts_.end(), {source, index, {}, {}});
+    if (part == parts_.end()) part = parts_.insert(parts_.end(), {source, index, {}, {}, true, {}});
     part->wanted.push_back(static_cast<int>(k));
     part->channels.push_back(channel);
   }
@@ -177,8 +177,12 @@ bool TangentPass::depends_directly(int j, const Part& part) const {
   return true;
 }
 
-void TangentPass::differentiate(std::span<const Part> parts, SystemState& state, MatrixX& out) {
+void TangentPass::differentiate(std::span<Part> parts, SystemState& state, MatrixX& out) {
   out.setZero();
+  for (Part& part : parts) {
+    part.branches.record();
+    if (part.due) board_.measure(part.source, part.index, state, work_, &part.branches);
+  }
   for (int j = 0; j < directions(); ++j) {
     const auto add = [&](const Part& part, const ChannelBoard& board, double factor) {
       for (std::size_t k = 0; k < part.wanted.size(); ++k)
@@ -188,20 +192,22 @@ void TangentPass::differentiate(std::span<const Part> parts, SystemState& state,
     for (const double sign : {-1.0, 1.0}) {
       if (by == 0.0) break;
       hht_->displaced(state, j, sign * by, moved_);
-      for (const Part& part : parts) {
+      for (Part& part : parts) {
         if (!part.due) continue;
-        board_.measure(part.source, part.index, moved_, work_);
+        part.branches.replay();
+        board_.measure(part.source, part.index, moved_, work_, &part.branches);
         add(part, board_, sign / (2.0 * by));
       }
     }
     if (!has_twin(j)) continue;
-    for (const Part& part : parts) {
+    for (Part& part : parts) {
       if (!part.due || !depends_directly(j, part)) continue;
       for (int side = 0; side < 2; ++side) {
         Lift& lift = lifts_[static_cast<std::size_t>(j)][side];
         moved_ = state;
         moved_.drive = drives_[static_cast<std::size_t>(j)][side];
-        lift.board->measure(part.source, part.index, moved_, *lift.work);
+        part.branches.replay();
+        lift.board->measure(part.source, part.index, moved_, *lift.work, &part.branches);
         add(part, *lift.board, (side == 0 ? -1.0 : 1.0) / twins_[static_cast<std::size_t>(j)].width);
       }
     }
@@ -218,7 +224,7 @@ void TangentPass::watch_gap(SystemState& state, double h, const Recorder& record
   const bool fresh = !gap_ || gap_->index != contact;
   if (fresh) {
     const int channel = board_.find(model_.system().elements[contact]->name() + ".gap");
-    gap_ = Part{Source::element, contact, {0}, {channel}};
+    gap_ = Part{Source::element, contact, {0}, {channel}, true, {}};
   }
   differentiate({&*gap_, 1}, state, gap_slope_);
   board_.measure(Source::element, contact, state, work_);

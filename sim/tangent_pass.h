@@ -30,6 +30,7 @@ class TangentPass {
     std::vector<int> wanted;    // places in the request: rows of the slopes
     std::vector<int> channels;  // of the board, one for each
     bool due = true;            // at this instant
+    Branches branches;          // of the law at the state that is differentiated
   };
   struct Lift {  // one side of a twin
     std::unique_ptr<ChannelBoard> board;
@@ -45,7 +46,7 @@ class TangentPass {
   void drives_at(double t);
   bool depends_directly(int j, const Part& part) const;
   /// Fills `out` (rows as the parts that are due say, x directions).
-  void differentiate(std::span<const Part> parts, SystemState& state, MatrixX& out);
+  void differentiate(std::span<Part> parts, SystemState& state, MatrixX& out);
   void watch_gap(SystemState& state, double h, const Recorder& recorder, const OperationClock& clock);
 
   const Model& model_;

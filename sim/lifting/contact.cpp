@@ -25,7 +25,7 @@ struct Contact::Touch {
   double depth = 0.0;   // m, below the plane of the rectangle
   double beside = 0.0;  // m, horizontal distance from the rectangle, 0 above it
   bool touching() const { return depth > 0.0 && beside == 0.0; }
-  double gap() const { return beside > 0.0 ? std::hypot(beside, depth) : -depth; }
+  double gap(const Instant& now) const { return now.on(beside > 0.0) ? std::hypot(beside, depth) : -depth; }
 };
 
 // The derivatives of x_S and v_S: by the configuration of the point's body (xA, vA) and of the surface's (xS, vS).
@@ -52,10 +52,10 @@ struct Cut {
   bool acts = false;
 };
 
-Cut cut(const Eigen::Vector2d& force, double cone) {
+Cut cut(const Eigen::Vector2d& force, double cone, Branches* branches = nullptr) {
   Cut c{.force = force};
   const double size = force.norm();
-  if (!(size > cone)) return c;
+  if (!on_branch(branches, size > cone) || size == 0.0) return c;
   c.acts = true;
   c.by_cone = force / size;
   c.force = cone * c.by_cone;
@@ -65,8 +65,12 @@ Cut cut(const Eigen::Vector2d& force, double cone) {
 
 }  // namespace
 
+double Contact::normal_force(const Touch& t, const Instant& now) const {
+  return unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth, now.branches);
+}
+
 // By the depth and by its rate.
-Contact::Dual Contact::normal_force(const Touch& t) const {
+Contact::Dual Contact::normal_force_by_depth(const Touch& t) const {
   return unilateral_force(Dual(t.depth, 0), Dual(-t.v_S.z(), 1), Dual(k_), Dual(c_), Dual(options_.damping_depth));
 }
 
@@ -124,11 +128,11 @@ Contact::Seen Contact::seen(const Touch& t, const Surface& s, const Instant& now
   return d;
 }
 
-Contact::Grip Contact::grip(const Touch& t, double N, std::span<const double> state) const {
+Contact::Grip Contact::grip(const Touch& t, double N, std::span<const double> state, Branches* branches) const {
   const Eigen::Vector2d anchor(state[kAnchorX], state[kAnchorY]);
   const double cone = options_.friction * N;
-  const Cut spring = cut(-k_ * (t.x_S.head<2>() - anchor), cone);
-  const Cut all = cut(spring.force - c_ * t.v_S.head<2>(), cone);
+  const Cut spring = cut(-k_ * (t.x_S.head<2>() - anchor), cone, branches);
+  const Cut all = cut(spring.force - c_ * t.v_S.head<2>(), cone, branches);
   Grip g;
   g.spring = spring.force;
   g.force = all.force;
@@ -169,10 +173,10 @@ void Contact::end_step(const Instant& now, double h, Memory m) const {
     const auto state = m.state.subspan(kStatesPerPoint * i, kStatesPerPoint);
     Eigen::Vector2d anchor(state[kAnchorX], state[kAnchorY]);
     Eigen::Vector2d slip = Eigen::Vector2d::Zero();
-    if (!active(now) || !t.touching()) {
+    if (!active(now) || !now.on(t.touching())) {
       anchor = t.x_S.head<2>();
     } else {
-      const Grip g = grip(t, unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth), state);
+      const Grip g = grip(t, normal_force(t, now), state, now.branches);
       if (g.slips) {
         const Eigen::Vector2d moved = t.x_S.head<2>() + g.spring / k_;
         if (h > 0.0) slip = (moved - anchor) / h;
@@ -191,9 +195,9 @@ void Contact::add_forces(const Instant& now, double, Memory m, ForceSum& out) co
   const Surface s = surface(now);
   for (std::size_t i = 0; i < options_.points.size(); ++i) {
     const Touch t = touch(options_.points[i], s, now);
-    if (!t.touching()) continue;
-    const double N = unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth);
-    const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
+    if (!now.on(t.touching())) continue;
+    const double N = normal_force(t, now);
+    const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint), now.branches);
     const Vector3 f_S(g.force.x(), g.force.y(), N);
     const Vector3 F_W = s.R_WS * f_S;
     add_point_force(t.point, now, F_W, out);
@@ -208,9 +212,8 @@ void Contact::add_jacobian(const Instant& now, double, Memory m, JacobianSum& ou
   for (std::size_t i = 0; i < options_.points.size(); ++i) {
     const Touch t = touch(options_.points[i], s, now);
     if (!t.touching()) continue;
-    const Dual N = normal_force(t);
+    const Dual N = normal_force_by_depth(t);
     if (N.a <= 0.0) continue;
-
     // f_S = (F_t, N) and its derivatives with respect to x_S and v_S.
     const Grip g = grip(t, N.a, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
     const Vector3 f_S(g.force.x(), g.force.y(), N.a);
@@ -224,7 +227,6 @@ void Contact::add_jacobian(const Instant& now, double, Memory m, JacobianSum& ou
     const auto [xA, vA, xS, vS] = seen(t, s, now);
     Matrix36 swing = Matrix36::Zero();
     swing.rightCols<3>() = -cross_matrix(f_S);  // the force turns with the surface
-
     const Matrix36 f_A = f_x * xA + f_v * vA, f_A_u = f_v * xA;
     const Matrix36 f_Sx = f_x * xS + f_v * vS, f_S_u = f_v * xS;
     const Vector3 F_W = s.R_WS * f_S;
@@ -254,7 +256,7 @@ bool Contact::add_history_tangent(const Instant&, const Instant& now, double, Me
   for (std::size_t i = 0; i < options_.points.size(); ++i) {
     const Touch t = touch(options_.points[i], s, now);
     if (!t.touching()) continue;
-    const double N = unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth);
+    const double N = normal_force(t, now);
     if (N <= 0.0) continue;
     const int first = kStatesPerPoint * static_cast<int>(i);
     const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
@@ -284,7 +286,7 @@ bool Contact::advance_state_tangent(const Instant&, const Instant& now, double h
     Dual N(0.0);
     Cut spring;
     if (touching) {
-      N = normal_force(t);
+      N = normal_force_by_depth(t);
       const Eigen::Vector2d anchor(m.state[kStatesPerPoint * i + kAnchorX], m.state[kStatesPerPoint * i + kAnchorY]);
       spring = cut(-k_ * (t.x_S.head<2>() - anchor), options_.friction * N.a);
       if (!spring.acts) {
@@ -327,7 +329,7 @@ double Contact::potential_energy(const Instant& now, Memory m) const {
   for (std::size_t i = 0; i < options_.points.size(); ++i) {
     const Touch t = touch(options_.points[i], s, now);
     if (!t.touching()) continue;
-    const double N = unilateral_force(t.depth, -t.v_S.z(), k_, c_, options_.damping_depth);
+    const double N = normal_force(t, now);
     const Grip g = grip(t, N, m.state.subspan(kStatesPerPoint * i, kStatesPerPoint));
     energy += unilateral_energy(t.depth, k_) + 0.5 * g.spring.squaredNorm() / k_;
   }
@@ -342,7 +344,7 @@ double Contact::dissipated_power(const Instant& now, Memory m) const {
     const Touch t = touch(options_.points[i], s, now);
     if (!t.touching()) continue;
     const double rate = -t.v_S.z();
-    const double N = unilateral_force(t.depth, rate, k_, c_, options_.damping_depth);
+    const double N = normal_force(t, now);
     const auto state = m.state.subspan(kStatesPerPoint * i, kStatesPerPoint);
     const Eigen::Vector2d slip(state[kSlipX], state[kSlipY]);
     const Grip g = grip(t, N, state);
@@ -372,17 +374,17 @@ void Contact::measure(const Instant& now, Memory, std::span<double> out) const {
   for (const Vector3& point : options_.points) {
     const Touch t = touch(point, s, now);
     const double rate = -t.v_S.z();
-    if (t.gap() < gap) {
-      gap = t.gap();
+    if (const double own = t.gap(now); now.on(own < gap)) {
+      gap = own;
       nearest = t.motion.p;
-      nearest_approach = std::max(0.0, rate);
+      nearest_approach = now.on(rate > 0.0) ? rate : 0.0;
     }
-    if (!active(now) || !t.touching()) continue;
+    if (!active(now) || !now.on(t.touching())) continue;
     ++touching;
     sum += t.motion.p;
-    force += unilateral_force(t.depth, rate, k_, c_, options_.damping_depth);
-    penetration = std::max(penetration, t.depth);
-    approach = std::max(approach, rate);
+    force += normal_force(t, now);
+    if (now.on(t.depth > penetration)) penetration = t.depth;
+    if (now.on(rate > approach)) approach = rate;
   }
   const Vector3 place = touching > 0 ? Vector3(sum / touching) : nearest;
   out[0] = force;

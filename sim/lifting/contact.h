@@ -82,8 +82,9 @@ class Contact final : public ForceElement {
   Surface surface(const Instant& now) const;
   Touch touch(const Vector3& point, const Surface& s, const Instant& now) const;
   Seen seen(const Touch& t, const Surface& s, const Instant& now) const;
-  Dual normal_force(const Touch& t) const;
-  Grip grip(const Touch& t, double N, std::span<const double> state) const;
+  double normal_force(const Touch& t, const Instant& now) const;
+  Dual normal_force_by_depth(const Touch& t) const;
+  Grip grip(const Touch& t, double N, std::span<const double> state, Branches* branches = nullptr) const;
   bool active(const Instant& now) const { return now.phase >= options_.active_from_phase; }
 
   ContactOptions options_;

@@ -60,7 +60,7 @@ Tagline::Gains Tagline::gains(const Instant& now) const {
   if (o.schedule.empty()) return {.kp = o.kp, .kd = o.kd};
   const double fall = line_motion(o.hoist_lower, o.hoist_upper, now).length;
   const auto above =
-      std::find_if(o.schedule.begin(), o.schedule.end(), [&](const GainPoint& g) { return g.fall > fall; });
+      std::find_if(o.schedule.begin(), o.schedule.end(), [&](const GainPoint& g) { return now.on(g.fall > fall); });
   if (above == o.schedule.begin() || above == o.schedule.end()) {
     const GainPoint& end = above == o.schedule.end() ? o.schedule.back() : o.schedule.front();
     return {.kp = o.kp * end.kp_factor, .kd = o.kd * end.kd_factor};
@@ -86,16 +86,17 @@ Tagline::Command Tagline::command(const Instant& now) const {
   const TaglineOptions& o = options_;
   const PlaneAngle::Value angle = angle_.value(now);
   Command c{.value = o.pretension};
-  if (angle.rate > 0.0) {
+  if (now.on(angle.rate > 0.0)) {
     const Gains k = gains(now);
-    const double e = std::max(0.0, angle.angle - o.set_point);
-    const double x = std::min(1.0, angle.rate / kSwitchRate), sets_in = x * x * (3.0 - 2.0 * x);
+    const double over = angle.angle - o.set_point, e = now.on(over > 0.0) ? over : 0.0;
+    const double x = now.on(angle.rate < kSwitchRate) ? angle.rate / kSwitchRate : 1.0;
+    const double sets_in = x * x * (3.0 - 2.0 * x);
     c.value += sets_in * k.kp * e + k.kd * angle.rate;
     c.by_angle = e > 0.0 ? sets_in * k.kp : 0.0;
     c.by_rate = k.kd + 6.0 * x * (1.0 - x) / kSwitchRate * k.kp * e;
     c.by_fall = sets_in * k.kp_by_fall * e + k.kd_by_fall * angle.rate;
   }
-  if (c.value > o.tension_max) return {.value = o.tension_max, .limited = true};
+  if (now.on(c.value > o.tension_max)) return {.value = o.tension_max, .limited = true};
   return c;
 }
 
@@ -111,7 +112,7 @@ Tagline::Command Tagline::steady_command(const Instant& now) const {
   return c;
 }
 
-Tagline::Pull Tagline::pull(double length, double command, double h, Memory m) const {
+Tagline::Pull Tagline::pull(double length, double command, double h, Memory m, Branches* branches) const {
   const double paid_out = m.state[kPaidOut];
   const double before = k_ * (m.scratch[kLength] - paid_out);
   const double a = 0.5 * h / options_.time_constant;
@@ -123,13 +124,13 @@ Tagline::Pull Tagline::pull(double length, double command, double h, Memory m) c
   p.by_paid_before = -p.by_length_before;
   p.by_command_before = p.by_command;
   const double most = options_.speed_max > 0.0 ? options_.speed_max * h : std::numeric_limits<double>::infinity();
-  if (std::abs(out) > most) {
+  if (on_branch(branches, std::abs(out) > most)) {
     out = std::copysign(most, out);
     p = {.tension = k_ * (length - paid_out - out), .by_length = k_, .by_command = 0.0, .limited = true};
     p.by_paid_before = -k_;
     p.held = true;
   }
-  if (p.tension > options_.tension_max) {
+  if (on_branch(branches, p.tension > options_.tension_max)) {
     const double slip = (p.tension - options_.tension_max) / k_;
     out += slip;
     p = {.tension = options_.tension_max, .slip_speed = slip / h, .limited = true};
@@ -141,7 +142,8 @@ Tagline::Pull Tagline::pull(double length, double command, double h, Memory m) c
 
 double Tagline::held_tension(const Instant& now, Memory m) const {
   if (!active(now)) return 0.0;
-  return std::max(0.0, k_ * (line_motion(options_.to, options_.from, now).length - m.state[kPaidOut]));
+  const double tension = k_ * (line_motion(options_.to, options_.from, now).length - m.state[kPaidOut]);
+  return now.on(tension > 0.0) ? tension : 0.0;
 }
 
 void Tagline::start(const Instant& now, Memory m) const {
@@ -162,8 +164,9 @@ void Tagline::begin_step(const Instant& before, double, Memory m) const {
 void Tagline::add_forces(const Instant& now, double h, Memory m, ForceSum& out) const {
   if (!active(now)) return;
   const LineMotion line = line_motion(options_.to, options_.from, now);
-  const double tension =
-      h > 0.0 ? std::max(0.0, pull(line.length, command(now).value, h, m).tension) : steady_command(now).value;
+  double tension =
+      h > 0.0 ? pull(line.length, command(now).value, h, m, now.branches).tension : steady_command(now).value;
+  if (!now.on(tension > 0.0)) tension = 0.0;
   add_line_forces(options_.to, options_.from, now, line, tension, out);
 }
 
@@ -204,7 +207,7 @@ void Tagline::end_step(const Instant& now, double h, Memory m) const {
   if (h <= 0.0) return;
   const double length = line_motion(options_.to, options_.from, now).length;
   const Command c = command(now);
-  const Pull p = pull(length, c.value, h, m);
+  const Pull p = pull(length, c.value, h, m, now.branches);
   m.state[kPaidOut] = p.paid_out;
   m.state[kLineSpeed] = p.line_speed;
   m.state[kSlipSpeed] = p.slip_speed;

@@ -129,7 +129,7 @@ class Tagline final : public ForceElement {
   void add_changes(const Instant& at, const Command& c, const BodyChange& bodies, Eigen::RowVectorXd& length,
                    Eigen::RowVectorXd& command) const;
   Command steady_command(const Instant& now) const;
-  Pull pull(double length, double command, double h, Memory m) const;
+  Pull pull(double length, double command, double h, Memory m, Branches* branches = nullptr) const;
   double held_tension(const Instant& now, Memory m) const;
 
   TaglineOptions options_;

@@ -13,20 +13,22 @@
 // c s ddot^2 where N > 0, -k d ddot with ddot < 0 where it is released.
 #pragma once
 
+#include "sim/multibody/branches.h"
+
 namespace stillhook {
 
-/// N for a scalar type T (double or a dual number).
+/// N for a scalar type T (double or a dual number); along `branches` it may be just below zero.
 template <typename T>
-T unilateral_force(const T& d, const T& d_rate, const T& k, const T& c, const T& d0) {
-  if (!(d > T(0.0))) return T(0.0);
+T unilateral_force(const T& d, const T& d_rate, const T& k, const T& c, const T& d0, Branches* branches = nullptr) {
+  if (!on_branch(branches, d > T(0.0))) return T(0.0);
   T force = k * d;
-  if (d < d0) {
+  if (on_branch(branches, d < d0)) {
     const T x = d / d0;
     force += c * x * (T(2.0) - x) * d_rate;
   } else {
     force += c * d_rate;
   }
-  return force > T(0.0) ? force : T(0.0);
+  return on_branch(branches, force > T(0.0)) ? force : T(0.0);
 }
 
 /// Energy of the spring, J.

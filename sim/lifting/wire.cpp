@@ -33,7 +33,7 @@ Wire::Unstretched Wire::unstretched(const Instant& now) const {
   const DriveState& drive = now.drive[options_.drive];
   const double length = options_.unstretched_length - drive.position;
   const double shortest = kShortestShare * options_.unstretched_length;
-  if (length < shortest) return {shortest, 0.0};
+  if (now.on(length < shortest)) return {shortest, 0.0};
   return {length, -drive.rate};
 }
 
@@ -47,14 +47,14 @@ double Wire::unstretched_length(const Instant& now) const { return unstretched(n
 double Wire::tension(const Instant& now) const {
   const LineMotion line = line_motion(options_.from, options_.to, now);
   const Unstretched L = unstretched(now);
-  return wire_tension(line.length, line.rate, L.length, L.rate, options_);
+  return wire_tension(line.length, line.rate, L.length, L.rate, options_, now.branches);
 }
 
 void Wire::add_forces(const Instant& now, double, Memory, ForceSum& out) const {
   const LineMotion line = line_motion(options_.from, options_.to, now);
   const Unstretched L = unstretched(now);
-  const double tension = wire_tension(line.length, line.rate, L.length, L.rate, options_);
-  if (tension > 0.0) add_line_forces(options_.from, options_.to, now, line, tension, out);
+  const double tension = wire_tension(line.length, line.rate, L.length, L.rate, options_, now.branches);
+  if (tension != 0.0) add_line_forces(options_.from, options_.to, now, line, tension, out);
 }
 
 void Wire::add_jacobian(const Instant& now, double, Memory, JacobianSum& out) const {
@@ -110,7 +110,7 @@ void Wire::measure(const Instant& now, Memory, std::span<double> out) const {
       options_.crane == kWorld ? Matrix3(Matrix3::Identity()) : heading_rotation(now.body[options_.crane].R_WB);
   const Vector3 offset_W = -line.length * line.e;  // lower end from upper end
   const Vector3 offset_H = R_WH.transpose() * offset_W, offset_L = lead_axes(now, R_WH).transpose() * offset_W;
-  out[0] = wire_tension(line.length, line.rate, L.length, L.rate, options_);
+  out[0] = wire_tension(line.length, line.rate, L.length, L.rate, options_, now.branches);
   out[1] = line.length;
   out[2] = L.length;
   out[3] = L.rate;

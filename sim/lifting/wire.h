@@ -36,9 +36,10 @@ double wire_damping(double damping_ratio, double mass, double axial_stiffness, d
 
 /// The tension law, N, for a scalar type T (double or a dual number).
 template <typename T>
-T wire_tension(const T& l, const T& l_rate, const T& L, const T& L_rate, const WireOptions& wire) {
+T wire_tension(const T& l, const T& l_rate, const T& L, const T& L_rate, const WireOptions& wire,
+               Branches* branches = nullptr) {
   return unilateral_force<T>(l - L, l_rate - L_rate, T(wire.axial_stiffness) / L, T(wire.damping),
-                             T(wire.damping_strain) * L);
+                             T(wire.damping_strain) * L, branches);
 }
 
 class Wire final : public ForceElement {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/multibody/branches.h"
 #include "sim/spatial/pose.h"
 
 namespace stillhook {
@@ -38,6 +39,10 @@ struct Instant {
   std::span<const BodyKinematics> body;  // by body index
   std::span<const DriveState> drive;     // by drive index
   int phase = 0;                         // index of the operation's phase
+  Branches* branches = nullptr;          // of the laws; nullptr: as the conditions are
+
+  /// Where a law has a kink: the condition of this instant, or the one of the branches to follow.
+  bool on(bool condition) const { return on_branch(branches, condition); }
 };
 
 /// What an element keeps between steps (state, part of State and copied with it) and may scribble on (scratch).
@@ -100,7 +105,8 @@ struct Channel {
 };
 
 /// A force element adds, never sets, and accounts for its energy. It is immutable after construction; what changes
-/// lives in Memory, so one element serves any number of simulations at once.
+/// lives in Memory, so one element serves any number of simulations at once. Where its law has a kink or a jump it asks
+/// Instant::on which side to take, in add_forces, end_step and measure.
 ///
 /// A step from t_n to t_n + h calls begin_step once, add_forces (and now and then add_jacobian) for each iterate of
 /// Newton's method, and end_step once when the step has converged. Statics call start() once and then add_forces and

@@ -12,12 +12,16 @@
 // the elements' own parameters and drives: these by central differences between a pair of elements built for
 // p + width/2 and p - width/2, at the same state. That difference is of one force law, not of a run: its error, of
 // second order in the width, is neither amplified by the integration nor blurred by the tolerance of Newton's method.
+// Both elements of a pair follow the branches that the base's own takes in the step (branches.h), as K and C do: a wire
+// that is taut by less than the pair's width would else be pulled by half of its stiffness, against all of it in K.
 // (Serban & Hindmarsh 2005 for the method; Bruls & Eberhard 2008 for multibody systems.)
 //
 // Causality saves work: a direction has a column only from the step on in which it first changes anything, such as the
 // speed of a later phase, or the gain of a line that is not connected yet.
 //
-// Where a law jumps (case C of a tagline, a touch) the derivative is that of the branch the run took.
+// The forces of wires, contacts, taglines and moorings are continuous at their kinks, so nothing jumps when the run
+// passes one. Where a law does jump (at the edge of a contact's rectangle, when a line is connected) the derivative is
+// that of the branch the run took, and the instant of the jump is taken not to move.
 #pragma once
 
 #include <array>
@@ -91,6 +95,11 @@ class HhtTangent {
     VectorX force, constraint, state;  // E, C', of the elements' states by their own parameters
     bool any = false;                  // of them is not zero
   };
+  /// Those that the base's element took in this step.
+  struct Taken {
+    Branches branches;
+    bool known = false;
+  };
   /// How the force of an element changes with its drive.
   struct ByDrive {
     VectorX position, rate;
@@ -109,6 +118,9 @@ class HhtTangent {
   void add_explicit(double h, const TwinDrives& before, const TwinDrives& now);
   void add_element(int element, int j, double h, const SideDrives& before, const SideDrives& now);
   void add_drive(int element, int j, double h, const SideDrives& now);
+  void step_along(const ForceElement& of, int element, double h, std::span<const DriveState> before,
+                  std::span<const DriveState> now, std::vector<double>& scratch);
+  void find_branches(int element, double h);
   const ByDrive& by_drive(int element, double h);
   void add_bodies(int j);
   void advance_states(double h);
@@ -130,6 +142,7 @@ class HhtTangent {
   MatrixX a_start_;                 // of the acceleration that the step starts from
   std::vector<Explicit> explicit_;  // [direction]
   std::vector<ByDrive> by_drive_;   // [element]
+  std::vector<Taken> taken_;        // [element]
   std::vector<int> driven_;         // elements with a drive
   std::vector<DriveState> drives_;
   VectorX low_force_;              // of an element, on a twin's lower side

@@ -74,6 +74,7 @@ void HhtTangent::history_by_differences(double h) {
 
 void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDrives& now) {
   for (ByDrive& derivative : by_drive_) derivative.known = false;
+  for (Taken& taken : taken_) taken.known = false;
   for (int j = 0; j < directions(); ++j) {
     Explicit& sum = explicit_[j];
     if (sum.any) {
@@ -99,21 +100,39 @@ void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDriv
   }
 }
 
+// One step of the element from before_ to middle_ with these drives, along the branches: its force is left in forces_,
+// its state in displaced_.
+void HhtTangent::step_along(const ForceElement& of, int e, double h, std::span<const DriveState> before,
+                            std::span<const DriveState> now, std::vector<double>& scratch) {
+  Branches* branches = &taken_[e].branches;
+  std::copy_n(before_.element_state.begin() + system_.state_offset(e), of.state_size(),
+              displaced_.element_state.begin() + system_.state_offset(e));
+  const Memory m = system_.memory_in(e, displaced_.element_state, scratch);
+  const Instant from{before_.t, before_.body, before, before_.phase, branches};
+  const Instant to{middle_.t, middle_.body, now, middle_.phase, branches};
+  of.begin_step(from, h, m);
+  forces_.clear();
+  of.add_forces(to, h, m, forces_);
+  if (of.has_history()) of.end_step(to, h, m);
+}
+
+void HhtTangent::find_branches(int e, double h) {
+  if (taken_[e].known) return;
+  taken_[e].branches.record();
+  step_along(*system_.elements[e], e, h, before_.drive, middle_.drive, scratch_);
+  taken_[e].known = true;
+}
+
 void HhtTangent::add_element(int e, int j, double h, const SideDrives& before, const SideDrives& now) {
   Twin& twin = twins_[j];
   Explicit& sum = explicit_[j];
   const bool differing = differs(j, e);
   const int first = system_.state_offset(e), count = system_.elements[e]->state_size();
+  find_branches(e, h);
   for (int side = 0; side < 2; ++side) {
     const ForceElement& element = differing ? *twin.of.system[side]->elements[e] : *system_.elements[e];
-    std::copy_n(before_.element_state.begin() + first, count, displaced_.element_state.begin() + first);
-    const Memory m = system_.memory_in(e, displaced_.element_state, differing ? twin.scratch[side] : scratch_);
-    const Instant from{before_.t, before_.body, before[side], before_.phase};
-    const Instant to{middle_.t, middle_.body, now[side], middle_.phase};
-    element.begin_step(from, h, m);
-    forces_.clear();
-    element.add_forces(to, h, m, forces_);
-    if (element.has_history()) element.end_step(to, h, m);
+    taken_[e].branches.replay();
+    step_along(element, e, h, before[side], now[side], differing ? twin.scratch[side] : scratch_);
     if (side > 0) break;
     low_force_ = forces_.value();
     std::copy_n(displaced_.element_state.begin() + first, count, low_state_.begin() + first);
@@ -129,19 +148,15 @@ void HhtTangent::add_element(int e, int j, double h, const SideDrives& before, c
 const HhtTangent::ByDrive& HhtTangent::by_drive(int e, double h) {
   ByDrive& derivative = by_drive_[e];
   if (derivative.known) return derivative;
-  const ForceElement& element = *system_.elements[e];
-  const std::size_t d = static_cast<std::size_t>(element.drive());
-  const int first = system_.state_offset(e), count = element.state_size();
+  find_branches(e, h);
+  const std::size_t d = static_cast<std::size_t>(system_.elements[e]->drive());
   drives_ = middle_.drive;
-  std::copy_n(before_.element_state.begin() + first, count, displaced_.element_state.begin() + first);
-  const Memory m = system_.memory_in(e, displaced_.element_state, scratch_);
-  element.begin_step(before_.instant(), h, m);
   const auto slope = [&](double& value, VectorX& out) {
     const double at = value;
     for (const double sign : {-1.0, 1.0}) {
       value = at + sign * kSmall;
-      forces_.clear();
-      element.add_forces({middle_.t, middle_.body, drives_, middle_.phase}, h, m, forces_);
+      taken_[e].branches.replay();
+      step_along(*system_.elements[e], e, h, before_.drive, drives_, scratch_);
       if (sign < 0.0) low_force_ = forces_.value();
     }
     out = (forces_.value() - low_force_) / (2.0 * kSmall);

@@ -77,6 +77,17 @@ TEST_CASE("A lift built beside another stands where it stands when built alone",
   }
 }
 
+TEST_CASE("A lift built beside another has its own wire", "[neighbour]") {
+  const std::string file = std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml";
+  const Lift base = alone(read_case(file));
+  const Case longer = read_case(file, {{"wires.fall.unstretched_length_m", "18.1"}});
+  const Lift cold = alone(longer), warm = beside(longer, base);
+  CHECK(warm.model.initial_lengths()[0] == 18.1);
+  CHECK(warm.model.initial_state().body[1].p_WC.z() ==
+        Approx(base.model.initial_state().body[1].p_WC.z() - 0.1).margin(1e-3));
+  CHECK(apart(cold.operation, warm.operation) < 1e-8);
+}
+
 TEST_CASE("Phases that cannot begin before the end of a run are left out", "[neighbour]") {
   const Case c = read_case(std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml");
   const Model model = build_model(c.specification);
