@@ -19,6 +19,7 @@ class Model {
   const Specification& specification() const { return specification_; }
   const MultibodySystem& system() const { return system_; }
   const WaveField& waves() const { return *waves_; }
+  std::shared_ptr<const WaveField> shared_waves() const { return waves_; }
 
   int body_index(const std::string& name) const;     // kWorld for "world"; throws SpecificationError if unknown
   int drive_index(const std::string& name) const;    // throws SpecificationError if unknown

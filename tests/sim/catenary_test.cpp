@@ -138,3 +138,50 @@ TEST_CASE("the catenary is found from anywhere, with or without a guess, and H g
     }
   }
 }
+
+TEST_CASE("a buoyant line is in equilibrium too: it goes up from its anchor and ends above the straight way") {
+  const CatenaryLine line{220.0, -350.0, 2.0e7};
+  for (const double x : {60.0, 140.0, 205.0}) {
+    const double z = 70.0;
+    const CatenaryLoad load = solve_catenary(line, x, z);
+    CAPTURE(x, load.H, load.V);
+    CHECK(load.H > 0.0);
+    const auto at = [&](int n) {
+      return truth::integrate_line(load.H, load.V, line.length, line.weight, line.axial_stiffness, 0.0, false, n);
+    };
+    const truth::IntegratedLine coarse = at(20000), fine = at(40000);
+    CHECK((4.0 * fine.x - coarse.x) / 3.0 == Approx(x).margin(1e-8 * line.length).epsilon(0.0));
+    CHECK((4.0 * fine.z - coarse.z) / 3.0 == Approx(z).margin(1e-8 * line.length).epsilon(0.0));
+    CHECK(catenary_energy(line, load, x, z) == Approx((4.0 * fine.energy - coarse.energy) / 3.0).epsilon(1e-7));
+    // The stiffness is the derivative of the load, and symmetric.
+    const double d = 1e-4;
+    const auto slope = [&](double dx, double dz) -> Eigen::Vector2d {
+      const CatenaryLoad a = solve_catenary(line, x + dx, z + dz), b = solve_catenary(line, x - dx, z - dz);
+      return Eigen::Vector2d(a.H - b.H, a.V - b.V) / (2.0 * d);
+    };
+    CHECK((load.stiffness.col(0) - slope(d, 0.0)).norm() < 1e-5 * load.stiffness.norm());
+    CHECK((load.stiffness.col(1) - slope(0.0, d)).norm() < 1e-5 * load.stiffness.norm());
+    CHECK(load.stiffness(0, 1) == Approx(load.stiffness(1, 0)).epsilon(1e-9).margin(1e-9 * load.stiffness.norm()));
+  }
+  // Upside down MoorPy's line is a buoyant one: anchor and fairlead change places.
+  const truth::CatenaryRow& row = truth::kMoorPyCatenaries[4];
+  const CatenaryLine buoyant{row.length, -row.weight, row.axial_stiffness};
+  const CatenaryLoad load = solve_catenary(buoyant, row.x, -row.z);
+  CHECK(load.H == Approx(row.H).epsilon(1e-6));
+  CHECK(-load.V == Approx(row.V).epsilon(1e-6));
+}
+
+TEST_CASE("how far a line hangs below its anchor, or rises above its fairlead") {
+  // Level ends, an inextensible line: the sag of a catenary with H, a (cosh(x/2a) - 1) with a = H/w.
+  const CatenaryLine line{110.0, 500.0, 1e12, 0.0, false};
+  const CatenaryLoad load = solve_catenary(line, 100.0, 0.0);
+  const double a = load.H / 500.0, sag = a * (std::cosh(50.0 / a) - 1.0);
+  CHECK(sag > 15.0);
+  CHECK(catenary_overhang(line, load) == Approx(sag).epsilon(1e-6));
+  CatenaryLine buoyant = line;
+  buoyant.weight = -500.0;
+  CHECK(catenary_overhang(buoyant, solve_catenary(buoyant, 100.0, 0.0)) == Approx(sag).epsilon(1e-6));
+  // A line that climbs all the way has none; the seabed carries one that lies on it.
+  CHECK(catenary_overhang(line, solve_catenary(line, 60.0, 91.0)) == 0.0);
+  CHECK(catenary_overhang({220.0, 900.0, 2e8}, solve_catenary({220.0, 900.0, 2e8}, 195.0, 40.0)) == 0.0);
+}
