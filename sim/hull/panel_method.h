@@ -76,10 +76,10 @@ struct PanelMethodReport {
 /// Throws like panel_method().
 std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options);
 
-/// Iterations that GMRES usually needs, and the columns it solves at a time: the modes of a symmetry class at every
-/// frequency of the part.
+/// Iterations that GMRES usually needs, and the columns it solves: the modes of a symmetry class at every frequency of
+/// the part.
 inline constexpr double kUsualIterations = 60.0;
-double columns_at_once(const PanelBand& band, int hulls);
+double columns_of(const PanelBand& band, int hulls);
 /// Most memory of one part, with what GMRES keeps.
 double bytes_at_most(const PanelBand& band, int hulls);
 

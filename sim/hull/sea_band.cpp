@@ -38,7 +38,7 @@ void require_resolved_sea(std::span<const HullAfloat> hulls, const WaveField& wa
     if (hull.mesh->vertices.empty()) return;
     const MeshProperties size = properties_of(*hull.mesh);
     length = std::max({length, size.high.x() - size.low.x(), size.high.y() - size.low.y()});
-    diagonal = std::max(diagonal, (size.high - size.low).head<2>().norm());
+    diagonal = std::hypot(diagonal, (size.high - size.low).head<2>().norm());
   }
   const double highest = rankine::highest_frequency(diagonal, panel_options(sea, method, 0.0));
   double energy = 0.0, beyond = 0.0;

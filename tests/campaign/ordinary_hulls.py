@@ -111,7 +111,8 @@ def write_case(folder, number, kind, rng):
         volume = ship_mesh(folder / f"hull_{number}.obj", length, breadth, draft, depth)
         shape = f'shape = "mesh", mesh_file = "hull_{number}.obj"'
     heading = rng.choice([90.0, 135.0, 180.0])
-    high = 0.3 * breadth if kind == "sheerleg" else 0.1 * breadth
+    # Above the still water; a ship of this form is stable up to a tenth of its breadth, not with it.
+    high = {"barge": 0.1, "ship": 0.02, "sheerleg": 0.3}[kind] * breadth
     path = folder / f"case_{number}.toml"
     path.write_text(f'''name = "case_{number}"
 

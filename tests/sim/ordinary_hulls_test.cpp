@@ -195,4 +195,32 @@ TEST_CASE("retardation functions have the whole of a fit with a part that dies o
   }
 }
 
+void require_accepted(const Vector3& size, double draft) {
+  HydrodynamicCoefficients c = panel_method({box_of(size, draft)}, automatic());
+  c.retardation = causal_kernels(c);
+  const std::vector<SelfCheck> checks = self_checks(c);
+  CHECK(checks.size() == 13);  // none is left out for want of data
+  for (const SelfCheck& check : checks) {
+    INFO(size.transpose() << ", " << draft << " m: " << check.key << " " << check.value << " " << check.detail);
+    CHECK(check.passed());
+  }
+}
+
+TEST_CASE("small square barges pass every self-check at the defaults", "[ordinary_hulls][slow]") {
+  require_accepted({30.0, 30.0, 6.5}, 2.5);
+  require_accepted({40.0, 40.0, 8.0}, 4.0);
+}
+
+TEST_CASE("a long barge passes every self-check at the defaults", "[ordinary_hulls][slow]") {
+  require_accepted({120.0, 25.0, 10.0}, 6.0);
+}
+
+TEST_CASE("a longer barge passes every self-check at the defaults", "[ordinary_hulls][slow]") {
+  require_accepted({140.0, 30.0, 10.5}, 6.5);
+}
+
+TEST_CASE("a deep box passes every self-check at the defaults", "[ordinary_hulls][slow]") {
+  require_accepted({90.0, 90.0, 60.0}, 40.0);
+}
+
 }  // namespace stillhook

@@ -12,6 +12,13 @@ double largest_diagonal(const Layout& layout) {
   return diagonal;
 }
 
+/// Of one hull that takes as many panels as all together.
+double joint_diagonal(const Layout& layout) {
+  double squares = 0.0;
+  for (const Placement& p : layout.hulls) squares += p.length * p.length + p.breadth * p.breadth;
+  return std::sqrt(squares);
+}
+
 }  // namespace
 
 double highest_frequency(double diagonal, const PanelMethodOptions& options) {
@@ -22,7 +29,7 @@ double highest_frequency(double diagonal, const PanelMethodOptions& options) {
 }
 
 double highest_frequency(const Layout& layout, const PanelMethodOptions& options) {
-  return highest_frequency(largest_diagonal(layout), options);
+  return highest_frequency(joint_diagonal(layout), options);
 }
 
 std::vector<double> frequencies_of(const Layout& layout, const PanelMethodOptions& options) {

@@ -15,7 +15,7 @@ namespace stillhook::rankine {
 /// waves (diffraction.h).
 double highest_frequency(double diagonal, const PanelMethodOptions& options);
 
-/// The same for the largest of the hulls.
+/// The same for one hull that takes as many panels as all of them together: the root of the sum of squared diagonals.
 double highest_frequency(const Layout& layout, const PanelMethodOptions& options);
 
 /// Ascending, the band's ends among them. Automatically kFrequencies, evenly in the logarithm as long as the phase of

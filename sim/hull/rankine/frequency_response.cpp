@@ -119,62 +119,95 @@ std::runtime_error not_converged(double frequency) {
   return std::runtime_error(sentence.str());
 }
 
+/// One step after the other for some frequencies, all their columns together.
+class Responses {
+ public:
+  Responses(const BoundaryClass& problem, const SurfacePanels& surface, const Beach& beach, double gravity)
+      : problem_(problem), surface_(surface), beach_(beach), gravity_(gravity), product_(problem.N) {}
+
+  void add(std::span<const double> frequencies, std::span<const MatrixXc> v, double tolerance,
+           std::vector<FrequencyResponse>& responses) {
+    std::vector<VectorXc> kappa;
+    std::vector<Krylov> columns;
+    std::vector<int> frequency_of;
+    for (std::size_t f = 0; f < frequencies.size(); ++f) {
+      kappa.push_back(kappa_at(frequencies[f]));
+      for (int c = 0; c < v[f].cols(); ++c) {
+        columns.emplace_back(problem_.R * v[f].col(c), tolerance);
+        frequency_of.push_back(static_cast<int>(f));
+      }
+    }
+    solve(frequencies, kappa, frequency_of, columns);
+    int k = 0;
+    for (std::size_t f = 0; f < frequencies.size(); ++f) {
+      FrequencyResponse& response = responses.emplace_back();
+      response.frequency = frequencies[f];
+      response.hull.resize(problem_.C.rows(), v[f].cols());
+      response.surface.resize(surface_.size(), v[f].cols());
+      for (int c = 0; c < v[f].cols(); ++c, ++k) {
+        response.surface.col(c) = columns[k].solution(surface_.size());
+        const VectorXc q = kappa[f].cwiseProduct(response.surface.col(c));
+        response.hull.col(c) = problem_.C * q + problem_.hull_response * v[f].col(c);
+        response.iterations = std::max(response.iterations, columns[k].iterations());
+      }
+    }
+  }
+
+ private:
+  VectorXc kappa_at(double frequency) const {
+    VectorXc kappa(surface_.size());
+    for (int i = 0; i < surface_.size(); ++i) {
+      const double s = surface_.distance[i] / beach_.width;
+      const double gap = !surface_.in_gap.empty() && surface_.in_gap[i] ? beach_.gap : 0.0;
+      const Complex w(frequency, (beach_.strength * s * s + gap) * frequency);
+      kappa(i) = w * w / gravity_;
+    }
+    return kappa;
+  }
+
+  void solve(std::span<const double> frequencies, const std::vector<VectorXc>& kappa,
+             const std::vector<int>& frequency_of, std::vector<Krylov>& columns) {
+    std::vector<VectorXc> in, out;
+    for (int iteration = 0;; ++iteration) {
+      std::vector<int> active;
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        if (!columns[k].done()) active.push_back(static_cast<int>(k));
+      if (active.empty()) return;
+      if (iteration == kMostIterations) throw not_converged(frequencies[frequency_of[active.front()]]);
+      in.resize(active.size());
+      for (std::size_t a = 0; a < active.size(); ++a)
+        in[a] = kappa[frequency_of[active[a]]].cwiseProduct(columns[active[a]].direction());
+      product_(in, out);
+#pragma omp parallel for schedule(dynamic, 1)
+      for (std::size_t a = 0; a < active.size(); ++a) {
+        Krylov& column = columns[active[a]];
+        column.advance(column.direction() - out[a]);
+      }
+    }
+  }
+
+  const BoundaryClass& problem_;
+  const SurfacePanels& surface_;
+  const Beach& beach_;
+  double gravity_;
+  SharedProduct product_;
+};
+
 }  // namespace
 
 std::vector<FrequencyResponse> frequency_responses(const BoundaryClass& problem, const SurfacePanels& surface,
                                                    const Beach& beach, double gravity,
                                                    std::span<const double> frequencies, std::span<const MatrixXc> v,
                                                    double tolerance) {
-  const int size = surface.size(), n = static_cast<int>(frequencies.size());
-  std::vector<VectorXc> kappa(n);
-  std::vector<Krylov> columns;
-  std::vector<int> frequency_of;
-  for (int f = 0; f < n; ++f) {
-    kappa[f].resize(size);
-    for (int i = 0; i < size; ++i) {
-      const double s = surface.distance[i] / beach.width;
-      const double gap = !surface.in_gap.empty() && surface.in_gap[i] ? beach.gap : 0.0;
-      const Complex w(frequencies[f], (beach.strength * s * s + gap) * frequencies[f]);
-      kappa[f](i) = w * w / gravity;
-    }
-    for (int c = 0; c < v[f].cols(); ++c) {
-      columns.emplace_back(problem.R * v[f].col(c), tolerance);
-      frequency_of.push_back(f);
-    }
-  }
-
-  SharedProduct product(problem.N);
-  std::vector<VectorXc> in, out;
-  for (int iteration = 0;; ++iteration) {
-    std::vector<int> active;
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      if (!columns[k].done()) active.push_back(static_cast<int>(k));
-    if (active.empty()) break;
-    if (iteration == kMostIterations)
-      throw not_converged(frequencies[frequency_of[active.front()]]);
-    in.resize(active.size());
-    for (std::size_t a = 0; a < active.size(); ++a)
-      in[a] = kappa[frequency_of[active[a]]].cwiseProduct(columns[active[a]].direction());
-    product(in, out);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t a = 0; a < active.size(); ++a) {
-      Krylov& column = columns[active[a]];
-      column.advance(column.direction() - out[a]);
-    }
-  }
-
-  std::vector<FrequencyResponse> responses(n);
-  int k = 0;
-  for (int f = 0; f < n; ++f) {
-    responses[f].frequency = frequencies[f];
-    responses[f].hull.resize(problem.C.rows(), v[f].cols());
-    responses[f].surface.resize(size, v[f].cols());
-    for (int c = 0; c < v[f].cols(); ++c, ++k) {
-      responses[f].surface.col(c) = columns[k].solution(size);
-      const VectorXc q = kappa[f].cwiseProduct(responses[f].surface.col(c));
-      responses[f].hull.col(c) = problem.C * q + problem.hull_response * v[f].col(c);
-      responses[f].iterations = std::max(responses[f].iterations, columns[k].iterations());
-    }
+  Responses solver(problem, surface, beach, gravity);
+  std::vector<FrequencyResponse> responses;
+  for (std::size_t first = 0; first < frequencies.size();) {
+    std::size_t count = 1;
+    Eigen::Index columns = v[first].cols();
+    while (first + count < frequencies.size() && columns + v[first + count].cols() <= kColumnsAtOnce)
+      columns += v[first + count++].cols();
+    solver.add(frequencies.subspan(first, count), v.subspan(first, count), tolerance, responses);
+    first += count;
   }
   return responses;
 }

@@ -8,7 +8,8 @@
 //   (1 - N kappa) phi_F = R v,      phi_H = C kappa phi_F + hull_response v,
 //
 // it is of the second kind: N smooths, so GMRES (Saad & Schultz 1986) needs about as many iterations as waves fit on the
-// surface. All frequencies and all columns of v advance together, so that each pass through N serves every one of them.
+// surface. Frequencies and their columns of v advance together, so that each pass through N serves all of them, as many as
+// kColumnsAtOnce: what GMRES keeps of each is what limits their number.
 #pragma once
 
 #include <complex>
@@ -21,6 +22,8 @@
 namespace stillhook::rankine {
 
 using MatrixXc = Eigen::MatrixXcd;
+
+inline constexpr int kColumnsAtOnce = 64;
 
 struct Beach {
   double width = 0.0;     // m, L

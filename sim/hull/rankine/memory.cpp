@@ -9,14 +9,15 @@
 
 namespace stillhook {
 
-double columns_at_once(const PanelBand& band, int hulls) {
+double columns_of(const PanelBand& band, int hulls) {
   return std::max(1.5, 6.0 * hulls / band.classes) * static_cast<double>(band.frequencies.size());
 }
 
 double bytes_at_most(const PanelBand& band, int hulls) {
   const double F = band.surface_panels;
-  // N of a class once more in single precision, and the directions of GMRES of all its columns.
-  return band.bytes + 4.0 * F * F + 16.0 * F * kUsualIterations * columns_at_once(band, hulls);
+  // N of a class once more in single precision, and the directions of GMRES of the columns that it solves at a time.
+  const double columns = std::min<double>(columns_of(band, hulls), rankine::kColumnsAtOnce);
+  return band.bytes + 4.0 * F * F + 16.0 * F * kUsualIterations * columns;
 }
 
 namespace {
