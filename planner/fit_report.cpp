@@ -48,7 +48,7 @@ std::string residual_plot(const RecordFit& record, const ChannelFit& c) {
   const ShownUnit unit = shown_unit(c.unit);
   Plot plot;
   plot.title = record.name + ": residuals of " + c.channel;
-  plot.y_label = "measured - simulated, " + unit.name;
+  plot.y_label = "residual, " + unit.name;
   plot.lines = {{"residual", record.time, scaled(residual(c), unit.factor)}};
   plot.height = 170.0;
   return figure(plot);

@@ -15,6 +15,7 @@ namespace stillhook {
 namespace {
 
 constexpr double kNegligibleCoupling = 5e-3;
+constexpr double kFarBeyond = 1e3;  // rad/s: the margin is that of infinite frequency
 constexpr int kSampled = 6;          // frequencies of the table of pairs
 constexpr int kExcitationRows = 14;  // frequencies of the table of X
 
@@ -222,8 +223,8 @@ ReportTable fit_table(const HydroSet& set) {
       if (pair.i == pair.j && std::find(block.modes.begin(), block.modes.end(), pair.i) != block.modes.end())
         worst = std::min(worst, pair.r_squared);
     table.rows.push_back({modes, std::to_string(block.order), fmt::format("{:.5f}", worst),
-                          fmt::format("{:.2g}", block.passivity_margin), fmt::format("{:.2f}", block.margin_frequency),
-                          period_text(block.margin_frequency), block.passivity_enforced ? "yes" : "no"});
+                          fmt::format("{:.2g}", block.passivity_margin), block.margin_frequency < kFarBeyond ? fmt::format("{:.2f}", block.margin_frequency) : "beyond",
+                          block.margin_frequency < kFarBeyond ? period_text(block.margin_frequency) : "0", block.passivity_enforced ? "yes" : "no"});
   }
   return table;
 }

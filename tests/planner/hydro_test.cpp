@@ -106,6 +106,13 @@ TEST_CASE("hydro computes, writes every file, and takes the second run from the 
     CHECK(check["pass"].get<bool>());
   }
   CHECK(summary["warnings"].empty());
+  // Head and beam seas: all six motions but yaw, which a box has in neither; each beside its lag, over periods as well.
+  const std::string report = content(run_folder + "/report.html");
+  for (const char* motion : {"Surge", "Sway", "Heave", "Roll", "Pitch"})
+    CHECK_THAT(report, Catch::Contains(std::string(motion) + " of barge"));
+  CHECK_THAT(report, !Catch::Contains("Yaw of barge") &&
+                         Catch::Contains("Not drawn, because next to nothing moves: Yaw") &&
+                         Catch::Contains("Its lag behind the crest") && Catch::Contains("ω, rad/s, with the period"));
   REQUIRE(set["fit"].contains("states"));
   CHECK(set["fit"]["states"].get<int>() > 0);
   CHECK(summary["rao"]["headings_deg"] == json({180.0, 90.0}));

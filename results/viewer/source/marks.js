@@ -81,8 +81,11 @@ export function directions(components, north, box) {
   const corner = new THREE.Vector3(box.min.x - 0.3 * length, box.min.y - 0.5 * length, 0.3);
   group.add(arrow(corner, 0, length, INK, '+x'));
   if (north !== null) group.add(arrow(corner, north, length, NORTH, 'N'));
-  const away = corner.clone().add(new THREE.Vector3(1.9 * length, 0, 0));
-  for (const heading of waveHeadings(components)) group.add(arrow(away, heading, length, WAVES, "waves"));
+  const beside = corner.clone().add(new THREE.Vector3(2.7 * length, 0, 0)); // the middle of each wave's arrow
+  for (const heading of waveHeadings(components)) {
+    const half = new THREE.Vector3(Math.cos(heading), Math.sin(heading), 0).multiplyScalar(0.5 * length);
+    group.add(arrow(beside.clone().sub(half), heading, length, WAVES, "waves"));
+  }
   return group;
 }
 
