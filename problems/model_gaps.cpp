@@ -24,10 +24,11 @@ void find_shallow_water(const Specification& s, std::vector<std::string>& gaps) 
     const double omega = regular ? sea.frequency : kTwoPi / sea.peak_period;
     const double length = kTwoPi * s.sea.gravity / (omega * omega);  // deep water: w^2 = g k
     if (!(s.sea.depth < 0.5 * length)) continue;
-    gaps.push_back(fmt::format("the waves feel the bottom: those of {:.1f} s are {:.0f} m long, the water is {:.1f} m "
-                               "deep, less than half of that; they are calculated as waves of deep water, and hulls "
-                               "as in deep water",
-                               kTwoPi / omega, length, s.sea.depth));
+    gaps.push_back(
+        fmt::format("the waves feel the bottom: those of {:.1f} s are {:.0f} m long, the water is {:.1f} m "
+                    "deep, less than half of that; they are calculated as waves of deep water, and hulls "
+                    "as in deep water",
+                    kTwoPi / omega, length, s.sea.depth));
   }
 }
 
@@ -71,17 +72,18 @@ void find_splash(const Specification& s, const Operation& operation, std::vector
       phase = p == 0 ? "at the start" : "in phase " + operation.static_poses[p].name;
   }
   if (!in_air || !in_water) return;
-  gaps.push_back(fmt::format("{} goes through the surface ({}): there is no slamming, no drag on the velocity of the "
-                             "water, and its added mass and damping do not change with immersion; amplification and "
-                             "slack in the splash zone come out too favourable{}",
-                             load->name, phase,
-                             load->hull.shape == HullSpec::Shape::none ? ", and without a hull it has no buoyancy" : ""));
+  gaps.push_back(fmt::format(
+      "{} goes through the surface ({}): there is no slamming, no drag on the velocity of the "
+      "water, and its added mass and damping do not change with immersion; amplification and "
+      "slack in the splash zone come out too favourable{}",
+      load->name, phase, load->hull.shape == HullSpec::Shape::none ? ", and without a hull it has no buoyancy" : ""));
 }
 
 /// A phase that takes the load through the surface and a good way beyond: the static load of its moments, which goes
 /// evenly from that of one end to that of the other, is then not the load's.
 void find_long_splash(const Specification& s, const Operation& operation, std::vector<std::string>& gaps) {
-  // In heights of the load: a phase of one follows the buoyancy nearly evenly, and a tenth is close enough to the surface.
+  // In heights of the load: a phase of one follows the buoyancy nearly evenly, and a tenth is close enough to the
+  // surface.
   constexpr double kBeyond = 1.5, kClose = 0.1;
   const auto load =
       std::find_if(s.bodies.begin(), s.bodies.end(), [&](const BodySpec& b) { return b.name == s.operation.load; });
@@ -92,13 +94,35 @@ void find_long_splash(const Specification& s, const Operation& operation, std::v
     const auto [low_before, high_before] = heights(s, *load, operation.static_poses[p - 1].bodies[index]);
     const auto [low_after, high_after] = heights(s, *load, operation.static_poses[p].bodies[index]);
     const double height = high_after - low_after;
-    const bool through = std::min(low_before, low_after) < -kClose * height &&
-                         std::max(high_before, high_after) > kClose * height;
+    const bool through =
+        std::min(low_before, low_after) < -kClose * height && std::max(high_before, high_after) > kClose * height;
     if (!through || std::abs(low_after - low_before) <= kBeyond * height) continue;
-    gaps.push_back(fmt::format("phase {} takes {} through the surface and beyond: its static load is taken to change "
-                               "evenly over the phase, so daf and slack_ratio_min are wrong there; end one phase where "
-                               "it meets the water and the next where it is under it",
-                               operation.static_poses[p].name, load->name));
+    gaps.push_back(
+        fmt::format("phase {} takes {} through the surface and beyond: its static load is taken to change "
+                    "evenly over the phase, so daf and slack_ratio_min are wrong there; end one phase where "
+                    "it meets the water and the next where it is under it",
+                    operation.static_poses[p].name, load->name));
+  }
+}
+
+/// A wire whose damping is a share of critical at its first length, and which is paid out to many times that: the
+/// dashpot stays what it was, while the critical damping falls with the root of the length.
+void find_long_payout(const Model& model, const Operation& operation, std::vector<std::string>& gaps) {
+  constexpr double kLonger = 4.0;  // times: twice the share
+  const std::vector<WireSpec>& wires = model.specification().wires;
+  for (std::size_t i = 0; i < wires.size(); ++i) {
+    const double first = model.initial_lengths()[i];
+    if (!(wires[i].damping_ratio > 0.0) || !(first > 0.0)) continue;
+    double longest = first;
+    for (const StaticPose& pose : operation.static_poses)
+      if (const auto length = pose.values.find(wires[i].name + ".unstretched"); length != pose.values.end())
+        longest = std::max(longest, length->second);
+    if (longest <= kLonger * first) continue;
+    gaps.push_back(fmt::format(
+        "wire {} is paid out from {:.4g} m to {:.4g} m: its damping stays that of damping_ratio "
+        "{:.3g} at the first length, which is {:.3g} of critical at the last; give "
+        "damping_kN_s_per_m for the length that counts",
+        wires[i].name, first, longest, wires[i].damping_ratio, wires[i].damping_ratio * std::sqrt(longest / first)));
   }
 }
 
@@ -115,9 +139,10 @@ void find_unheld(const Model& model, const Operation& operation, std::vector<std
       if (!(period > kHeld)) continue;
       const std::string how = std::isfinite(period) ? fmt::format("its period there is {:.0f} s", period)
                                                     : std::string("nothing brings it back");
-      gaps.push_back(fmt::format("{} is not held in {}: {}; waves and the moves of the crane carry it off, and what it "
-                                 "sets down lands off the target. Give it [[moorings]] or a [[restoring]] spring that pull that way",
-                                 vessel, axis == 0 ? "x" : "y", how));
+      gaps.push_back(fmt::format(
+          "{} is not held in {}: {}; waves and the moves of the crane carry it off, and what it "
+          "sets down lands off the target. Give it [[moorings]] or a [[restoring]] spring that pull that way",
+          vessel, axis == 0 ? "x" : "y", how));
     }
   }
 }
@@ -125,11 +150,12 @@ void find_unheld(const Model& model, const Operation& operation, std::vector<std
 void find_moved_by_sea(const Specification& s, std::vector<std::string>& gaps) {
   for (const BodySpec& body : s.bodies) {
     if (!body.moved_by_sea()) continue;
-    gaps.push_back(fmt::format("{} moves by its displacement RAOs alone, about the pose of the case: it does not heel, "
-                               "trim or sink under the lift, its lines and contacts do not hold it, it has no drift, and "
-                               "the load does not change its motions. Where the load weighs more than a few per cent of "
-                               "the vessel, give it a hull",
-                               body.name));
+    gaps.push_back(
+        fmt::format("{} moves by its displacement RAOs alone, about the pose of the case: it does not heel, "
+                    "trim or sink under the lift, its lines and contacts do not hold it, it has no drift, and "
+                    "the load does not change its motions. Where the load weighs more than a few per cent of "
+                    "the vessel, give it a hull",
+                    body.name));
   }
 }
 
@@ -141,6 +167,7 @@ std::vector<std::string> model_gaps(const Model& model, const Operation& operati
   find_moved_by_sea(model.specification(), gaps);
   find_splash(model.specification(), operation, gaps);
   find_long_splash(model.specification(), operation, gaps);
+  find_long_payout(model, operation, gaps);
   find_unheld(model, operation, gaps);
   return gaps;
 }

@@ -107,7 +107,9 @@ std::string offset_table(const ReportData& data, const RunView& view) {
   std::vector<std::vector<std::string>> rows;
   for (const BodySpec& body : data.specification.bodies) {
     const bool moored = std::any_of(data.specification.moorings.begin(), data.specification.moorings.end(),
-                                    [&](const MooringSpec& m) { return m.body == body.name && m.tow.empty(); });
+                                    [&](const MooringSpec& m) { return m.body == body.name && m.tow.empty(); }) ||
+                        std::any_of(data.specification.restoring.begin(), data.specification.restoring.end(),
+                                    [&](const RestoringSpec& r) { return r.body == body.name; });
     const auto x = view.series(body.name + ".x"), y = view.series(body.name + ".y");
     if (!moored || x.empty() || y.empty()) continue;
     Peak fore, athwart, away;

@@ -187,10 +187,15 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     if (h.kind == HydrodynamicsSpec::Kind::constant) group.constant_added_mass = h.added_mass;
     groups_.push_back(std::move(group));
   }
+  add_sea_moved();
+}
+
+void LinearResponse::add_sea_moved() {
+  const MultibodySystem& system = model_.system();
   for (const Joint& joint : system.joints) {
     if (!joint.motion) continue;
     const int k = joint.on_child.body;
-    const BodySpec& body = spec.bodies[static_cast<std::size_t>(k)];
+    const BodySpec& body = model_.specification().bodies[static_cast<std::size_t>(k)];
     if (!body.moved_by_sea()) continue;
     const RaoFrame frame(body);
     const Matrix3 R_WB = rotation_from(body.attitude);

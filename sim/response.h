@@ -60,6 +60,7 @@ class LinearResponse {
   struct Group;
   struct SeaMoved;
 
+  void add_sea_moved();
   MatrixX potential_mass(double frequency) const;     // T^T A T of all
   MatrixX potential_damping(double frequency) const;  // T^T B T of the sets
   Eigen::VectorXcd excitation(double frequency, double heading) const;

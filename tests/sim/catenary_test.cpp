@@ -157,7 +157,7 @@ TEST_CASE("a buoyant line is in equilibrium too: it goes up from its anchor and 
     const double d = 1e-4;
     const auto slope = [&](double dx, double dz) -> Eigen::Vector2d {
       const CatenaryLoad a = solve_catenary(line, x + dx, z + dz), b = solve_catenary(line, x - dx, z - dz);
-      return Eigen::Vector2d(a.H - b.H, a.V - b.V) / (2.0 * d);
+      return Eigen::Vector2d((a.H - b.H) / (2.0 * d), (a.V - b.V) / (2.0 * d));
     };
     CHECK((load.stiffness.col(0) - slope(d, 0.0)).norm() < 1e-5 * load.stiffness.norm());
     CHECK((load.stiffness.col(1) - slope(0.0, d)).norm() < 1e-5 * load.stiffness.norm());

@@ -6,6 +6,7 @@
 
 #include "sim/specification.h"
 #include "tests/sim/force_element_suite.h"
+#include "tests/truth/moorpy_catenary.h"
 
 using namespace stillhook;
 
@@ -146,4 +147,69 @@ TEST_CASE("a mooring line that cannot be is refused") {
   refused([](auto& o) { o.tow_direction = Vector3(1.0, 1.0, 0.0); });
   refused([](auto& o) { o = linear_options(), o.stiffness = 0.0; });
   refused([](auto& o) { o = linear_options(), o.anchor_distance = 0.0; });
+}
+
+TEST_CASE("an anchor by position: the line's length gives the tension") {
+  const suite::Scene s = moored_hull();
+  const Vector3 fairlead = motion_of(kFairlead, s.instant()).p;
+  // MoorPy's hanging lines, from an anchor (a buoy, a pile) far above the bottom.
+  for (const truth::CatenaryRow& row : truth::kMoorPyCatenaries) {
+    if (row.on_seabed) continue;
+    MooringOptions o;
+    o.name = "line";
+    o.fairlead = kFairlead;
+    const Vector3 away(std::cos(2.0), std::sin(2.0), 0.0);
+    o.anchor = fairlead + row.x * away - row.z * Vector3::UnitZ();
+    o.line = {row.length, row.weight, row.axial_stiffness};
+    o.depth = 1000.0;
+    const Vector3 F = force_on(Mooring(o, s.instant()), s);
+    // Their solver stops at 1e-6 m, which is about 1e-7 of these loads.
+    CHECK(F.dot(away) == Approx(row.H).epsilon(1e-6));
+    CHECK(-F.z() == Approx(row.V).epsilon(1e-6));
+    // The same line upside down, buoyant, from as far above a point that lies deep enough for it.
+    o.fairlead.c_B.z() -= 400.0;
+    o.anchor = motion_of(o.fairlead, s.instant()).p + row.x * away + row.z * Vector3::UnitZ();
+    o.line.weight = -row.weight;
+    const Vector3 up = force_on(Mooring(o, s.instant()), s);
+    CHECK(up.dot(away) == Approx(row.H).epsilon(1e-6));
+    CHECK(up.z() == Approx(row.V).epsilon(1e-6));
+  }
+  // On the bottom it is the line that azimuth and pretension would have laid.
+  const Mooring laid(catenary_options(), s.instant());
+  MooringOptions placed = catenary_options();
+  placed.anchor = laid.anchor();
+  placed.azimuth = 0.0;
+  placed.pretension = 0.0;
+  CHECK((force_on(Mooring(placed, s.instant()), s) - force_on(laid, s)).norm() < 1e-6);
+  MooringOptions spring = linear_options();
+  spring.anchor = Mooring(linear_options(), s.instant()).anchor();
+  spring.azimuth = spring.anchor_distance = 0.0;
+  CHECK((force_on(Mooring(spring, s.instant()), s) - force_on(Mooring(linear_options(), s.instant()), s)).norm() < 1e-6);
+}
+
+TEST_CASE("anchors and lines that are not what the model says are refused with the remedy") {
+  const suite::Scene s = moored_hull();
+  const auto said = [&](const Vector3& from_fairlead, double length, double weight) {
+    MooringOptions o;
+    o.name = "line";
+    o.fairlead = {0, kFairlead.c_B - Vector3(0.0, 0.0, 6.0)};  // under water
+    const Vector3 at = motion_of(o.fairlead, s.instant()).p;
+    o.anchor = at + from_fairlead;
+    o.line = {length, weight, 1e8};
+    o.depth = 60.0;
+    try {
+      Mooring line(o, s.instant());
+    } catch (const SpecificationError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Catch::Contains;
+  CHECK(said({80.0, 0.0, -20.0}, 84.0, 300.0).empty());
+  CHECK_THAT(said({80.0, 0.0, -70.0}, 120.0, 300.0), Contains("below the sea bed"));
+  CHECK_THAT(said({80.0, 0.0, -20.0}, 60.0, 300.0), Contains("too short"));
+  CHECK_THAT(said({80.0, 0.0, -20.0}, 160.0, 300.0), Contains("would lie on it"));
+  CHECK(said({80.0, 0.0, -40.0}, 91.0, -300.0).empty());
+  CHECK_THAT(said({80.0, 0.0, -20.0}, 160.0, -300.0), Contains("float at the surface"));
+  CHECK_THAT(said({80.0, 0.0, -20.0}, 84.0, 0.0), Contains("wire from"));
 }

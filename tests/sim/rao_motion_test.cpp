@@ -76,8 +76,7 @@ std::string row(const Truth& truth, const RaoSpec& spec, double w, double toward
                                                                        : 0.5 * std::numbers::pi);
   for (int i = 0; i < 6; ++i) {
     const double sign = spec.reversed[static_cast<std::size_t>(i)] ? -1.0 : 1.0;
-    const auto [A, peak] =
-        harmonic([&](double t) { return sign * truth.motion(spec.reference, w, towards, t)[i]; }, w);
+    const auto [A, peak] = harmonic([&](double t) { return sign * truth.motion(spec.reference, w, towards, t)[i]; }, w);
     const double lag = peak - event, phase = spec.phase == RaoSpec::Phase::lag ? lag : -lag;
     text << "," << (i < 3 ? A : A / kDegree) << "," << std::remainder(phase, kTwoPi) / kDegree;
   }
@@ -430,7 +429,8 @@ TEST_CASE("WAMIT's .4 says what the same RAOs in columns say", "[rao]") {
   CHECK(b.frequencies.front() == Approx(w).epsilon(1e-12));
   for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(a.values[0][i] - b.values[0][i]) < 1e-9);
   file.body = 0;
-  CHECK_THAT(refusal([&] { read_rao_table(vessel(file), kG); }), Catch::Contains("2 bodies") && Catch::Contains("wamit_body"));
+  CHECK_THAT(refusal([&] { read_rao_table(vessel(file), kG); }),
+             Catch::Contains("2 bodies") && Catch::Contains("wamit_body"));
   file.body = 1;
   file.file = folder.write("short.4", line(1, 0.5, 80.0));
   CHECK_THAT(refusal([&] { read_rao_table(vessel(file), kG); }), Catch::Contains("not all six modes"));
@@ -454,8 +454,7 @@ TEST_CASE("headings of one side stand for the other", "[rao]") {
   const double w = kTwoPi / 10.0;
   for (const double b : {45.0, 90.0, 135.0}) {
     const Raos port = table.between(w, b * kDegree), starboard = table.between(w, -b * kDegree);
-    for (std::size_t i = 0; i < 6; ++i)
-      CHECK(std::abs(starboard[i] - (i % 2 == 1 ? -1.0 : 1.0) * port[i]) < 1e-12);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(starboard[i] - (i % 2 == 1 ? -1.0 : 1.0) * port[i]) < 1e-12);
   }
   // Half way between two rows the complex numbers are the mean of theirs.
   const Raos middle = table.between(w, 22.5 * kDegree), a = table.between(w, 0.0), b = table.between(w, 45.0 * kDegree);
@@ -502,12 +501,15 @@ TEST_CASE("an RAO file that is not right is refused by line and rule", "[rao]") 
     return refusal([&] { read_rao_table(vessel(spec), kG); });
   };
   CHECK(said(header() + good).empty());
-  CHECK_THAT(said(header() + "8,0,0.5,0,0,0,1,0,2,0,0,0,0\n"), Catch::Contains("rao.csv:2") && Catch::Contains("cut off"));
+  CHECK_THAT(said(header() + "8,0,0.5,0,0,0,1,0,2,0,0,0,0\n"),
+             Catch::Contains("rao.csv:2") && Catch::Contains("cut off"));
   CHECK_THAT(said(header() + good + good), Catch::Contains("rao.csv:3") && Catch::Contains("once more"));
   CHECK_THAT(said(header() + good + "9,0,0.5,0,0,0,1,0,2,0,0,0,0,0\n9,90,0.5,0,0,0,1,0,2,0,0,0,0,0\n"),
              Catch::Contains("same periods"));
-  CHECK_THAT(said(header() + "8,0,0.5,0,0,0,1,0,x,0,0,0,0,0\n"), Catch::Contains("roll_deg_per_m") && Catch::Contains("\"x\""));
-  CHECK_THAT(said(header() + "8,0,-0.5,0,0,0,1,0,2,0,0,0,0,0\n"), Catch::Contains("surge_m_per_m") && Catch::Contains(">= 0"));
+  CHECK_THAT(said(header() + "8,0,0.5,0,0,0,1,0,x,0,0,0,0,0\n"),
+             Catch::Contains("roll_deg_per_m") && Catch::Contains("\"x\""));
+  CHECK_THAT(said(header() + "8,0,-0.5,0,0,0,1,0,2,0,0,0,0,0\n"),
+             Catch::Contains("surge_m_per_m") && Catch::Contains(">= 0"));
   CHECK_THAT(said(header() + "8,0,0.5,0,0,0,1,0,200,0,0,0,0,0\n"), Catch::Contains("unit"));
   CHECK_THAT(said(header() + "0,0,0.5,0,0,0,1,0,2,0,0,0,0,0\n"), Catch::Contains("period_s"));
   CHECK_THAT(said("period_s,heading_deg\n8,0\n"), Catch::Contains("surge_m_per_m"));
