@@ -19,9 +19,9 @@ namespace {
 
 using namespace rankine;
 
-/// A ship of quadrilaterals, cut into triangles by parallel diagonals on both sides, which are not each other's images.
+/// A ship of quadrilaterals, cut into triangles by diagonals that are not each other's mirror images.
 Mesh ship(double length, double breadth, double draft, double depth) {
-  constexpr int kStations = 16, kLevels = 5;
+  constexpr int kStations = 24, kLevels = 6;
   Mesh mesh;
   for (int i = 0; i <= kStations; ++i)
     for (int j = 0; j <= kLevels; ++j) {
@@ -40,7 +40,7 @@ Mesh ship(double length, double breadth, double draft, double depth) {
   for (int i = 0; i < kStations; ++i) {
     for (int j = 0; j < kLevels; ++j) {
       quad(at(i, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0), at(i + 1, j, 0));
-      quad(at(i, j, 1), at(i + 1, j, 1), at(i + 1, j + 1, 1), at(i, j + 1, 1));
+      quad(at(i + 1, j, 1), at(i + 1, j + 1, 1), at(i, j + 1, 1), at(i, j, 1));
     }
     quad(at(i, 0, 0), at(i + 1, 0, 0), at(i + 1, 0, 1), at(i, 0, 1));
     quad(at(i, kLevels, 0), at(i, kLevels, 1), at(i + 1, kLevels, 1), at(i + 1, kLevels, 0));
@@ -68,6 +68,17 @@ PanelMethodOptions automatic() {
   return options;
 }
 
+void require_accepted(const Vector3& size, double draft) {
+  HydrodynamicCoefficients c = panel_method({box_of(size, draft)}, automatic());
+  c.retardation = causal_kernels(c);
+  const std::vector<SelfCheck> checks = self_checks(c);
+  CHECK(checks.size() == 13);  // none is left out for want of data
+  for (const SelfCheck& check : checks) {
+    INFO(size.transpose() << ", " << draft << " m: " << check.key << " " << check.value << " " << check.detail);
+    CHECK(check.passed());
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a hull's symmetry does not depend on how its sides are cut into triangles", "[ordinary_hulls]") {
@@ -78,7 +89,7 @@ TEST_CASE("a hull's symmetry does not depend on how its sides are cut into trian
   CHECK(surface_symmetry(refined, 0.0).x);
   CHECK(surface_symmetry(refined, 0.0).y);
 
-  // A sponson of 1.5 m along the aft part of one side, and a bow twice as full as the stern, are no such difference.
+  // A sponson of 1.5 m along the aft part of one side, and a bow 4 m longer than the stern, are no such difference.
   Mesh sponson = refined;
   for (Vector3& v : sponson.vertices)
     if (v.y() > 4.0 && v.x() < 0.0) v.y() += 1.5;
@@ -86,7 +97,7 @@ TEST_CASE("a hull's symmetry does not depend on how its sides are cut into trian
   CHECK_FALSE(surface_symmetry(sponson, 0.0).x);
   Mesh full = refined;
   for (Vector3& v : full.vertices)
-    if (v.x() > 20.0) v.y() *= 1.3;
+    if (v.x() > 20.0) v.x() += 4.0;
   CHECK_FALSE(surface_symmetry(full, 0.0).x);
   CHECK(surface_symmetry(full, 0.0).y);
 }
@@ -192,17 +203,6 @@ TEST_CASE("retardation functions have the whole of a fit with a part that dies o
     INFO(at.frequency);
     // The fit is asked for 2 %; with the samples as they are the integral is 11 % of the largest B off.
     CHECK(damping_from_kernels(K, 6, at.frequency)(2, 2) == Approx(at.B(2, 2)).margin(0.04 * largest));
-  }
-}
-
-void require_accepted(const Vector3& size, double draft) {
-  HydrodynamicCoefficients c = panel_method({box_of(size, draft)}, automatic());
-  c.retardation = causal_kernels(c);
-  const std::vector<SelfCheck> checks = self_checks(c);
-  CHECK(checks.size() == 13);  // none is left out for want of data
-  for (const SelfCheck& check : checks) {
-    INFO(size.transpose() << ", " << draft << " m: " << check.key << " " << check.value << " " << check.detail);
-    CHECK(check.passed());
   }
 }
 
