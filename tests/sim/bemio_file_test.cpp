@@ -10,99 +10,17 @@
 
 #include "sim/hull/hdf5_file.h"
 #include "sim/specification.h"
+#include "tests/sim/bemio_sample.h"
 #include "tests/sim/coefficient_sets.h"
 #include "tests/sim/temporary_folder.h"
 
 namespace stillhook {
+
+using namespace bemio_sample;
+
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// The datasets of a small file, as BEMIO would make it: one body, w = 1, 0.5, 2 in this order (others sort periods),
-/// four headings. Written without the writer under test.
-struct SmallFile {
-  std::map<std::string, Hdf5Array> numbers;
-  std::map<std::string, std::string> texts;
-
-  static constexpr double rho = 1000.0, g = 10.0;
-
-  SmallFile() {
-    texts["/bem_data/code"] = "NEMOH";
-    texts["/body1/properties/name"] = "float";
-    texts["/simulation_parameters/water_depth"] = "infinite";
-    const std::string p = "/simulation_parameters/", b = "/body1/properties/", h = "/body1/hydro_coeffs/";
-    numbers[p + "scaled"] = {{1, 1}, {0.0}};
-    numbers[p + "rho"] = {{1, 1}, {rho}};
-    numbers[p + "g"] = {{}, {g}};  // a scalar, as h5py writes it
-    numbers[p + "w"] = {{3, 1}, {1.0, 0.5, 2.0}};
-    numbers[p + "T"] = {{3}, {2.0 * std::numbers::pi, 4.0 * std::numbers::pi, std::numbers::pi}};
-    numbers[p + "wave_dir"] = {{4, 1}, {0.0, 90.0, 180.0, 270.0}};
-    numbers[b + "dof"] = {{1, 1}, {6.0}};
-    numbers[b + "disp_vol"] = {{1, 1}, {25.0}};
-    numbers[b + "cg"] = {{3, 1}, {2.0, -1.0, -0.5}};
-    numbers[h + "linear_restoring_stiffness"] = {{6, 6}, std::vector<double>(36, 0.0)};
-    numbers[h + "linear_restoring_stiffness"].value[14] = 13.0;
-    numbers[h + "added_mass/inf_freq"] = {{6, 6}, std::vector<double>(36, 0.0)};
-    Hdf5Array matrix{{6, 6, 3}, std::vector<double>(108, 0.0)};
-    numbers[h + "added_mass/all"] = numbers[h + "radiation_damping/all"] = matrix;
-    Hdf5Array force{{6, 4, 3}, std::vector<double>(72, 0.0)};
-    numbers[h + "excitation/re"] = numbers[h + "excitation/im"] = force;
-    for (int i = 0; i < 6; ++i) {
-      numbers[h + "added_mass/inf_freq"].value[static_cast<std::size_t>(7 * i)] = 4.0;
-      for (int f = 0; f < 3; ++f) {
-        A(i, i, f) = 5.0 + f;
-        B(i, i, f) = 0.5 + 0.1 * f;
-      }
-    }
-    A(2, 4, 0) = -0.75;  // not its transpose: an order of dimensions that is reversed would be seen
-    re(2, 1, 1) = 3.0;   // heave, 90 deg, 0.5 rad/s
-    im(2, 1, 1) = 1.0;
-  }
-
-  double& A(int i, int j, int f) { return at("/body1/hydro_coeffs/added_mass/all", (i * 6 + j) * 3 + f); }
-  double& B(int i, int j, int f) { return at("/body1/hydro_coeffs/radiation_damping/all", (i * 6 + j) * 3 + f); }
-  double& re(int i, int h, int f) { return at("/body1/hydro_coeffs/excitation/re", (i * 4 + h) * 3 + f); }
-  double& im(int i, int h, int f) { return at("/body1/hydro_coeffs/excitation/im", (i * 4 + h) * 3 + f); }
-  double& at(const std::string& name, int n) { return numbers.at(name).value[static_cast<std::size_t>(n)]; }
-
-  void with_kernels() {
-    const std::string name = "/body1/hydro_coeffs/radiation_damping/impulse_response_fun/";
-    numbers[name + "t"] = {{4, 1}, {0.0, 0.2, 0.4, 0.6}};
-    numbers[name + "K"] = {{6, 6, 4}, std::vector<double>(144, 0.0)};
-    for (int m = 0; m < 4; ++m) at(name + "K", (2 * 6 + 2) * 4 + m) = 4.0 - m;
-  }
-
-  void write(const std::string& path) const {
-    Hdf5File file(path, Hdf5File::Mode::create);
-    for (const auto& [name, array] : numbers) file.write(name, array, "");
-    for (const auto& [name, text] : texts) file.write(name, text);
-    file.close();
-  }
-};
-
-DatabaseFrame frame() {
-  DatabaseFrame f;
-  f.length = 8.0;
-  f.bodies = {{Vector3(2.0, -1.0, -0.5), 0.0}};  // Bo in the centre of gravity of the small file
-  f.retardation = {10.0, 0.1};
-  return f;
-}
-
-DatabaseFrame frame_of(const HydrodynamicCoefficients& c) {
-  DatabaseFrame f;
-  f.length = c.length;
-  f.bodies = {{Vector3(10.0, 4.0, -c.waterline), 0.0}};
-  if (c.hulls() == 2) f.bodies.push_back({Vector3(-7.0, 60.0, -c.waterline), 0.0});
-  return f;
-}
-
-std::vector<BemioBody> bodies_of(const HydrodynamicCoefficients& c) {
-  std::vector<BemioBody> bodies = {{"crane", Vector3(12.0, 4.0, 7.0), Vector3(12.0, 4.0, -2.0), Matrix6::Identity()}};
-  if (c.hulls() == 2)
-    bodies.push_back({"barge", Vector3(-7.0, 61.0, 3.0), Vector3(-7.0, 61.0, -2.0), Matrix6::Identity()});
-  for (std::size_t n = 0; n < bodies.size(); ++n) bodies[n].stiffness(2, 2) = c.density * c.gravity * c.waterplane[n];
-  return bodies;
-}
 
 }  // namespace
 
@@ -325,77 +243,6 @@ TEST_CASE("one body of several in a BEMIO file is read when it is named", "[bemi
         1e-9 * std::abs(c.excitation.at(1, 1, static_cast<int>(at) + 4)));
   for (const RetardationKernel& kernel : back.retardation.kernels) CHECK((kernel.i < 6 && kernel.j < 6));
   CHECK(back.remarks.size() == 1);
-}
-
-TEST_CASE("one hull and two travel through a BEMIO file and back", "[bemio_file]") {
-  const TemporaryFolder folder;
-  const bool two = GENERATE(false, true);
-  HydrodynamicCoefficients c = two ? pair_set() : crane_set();
-  c.waterline = 0.25;
-  write_bemio(folder / "set.h5", c, frame_of(c), bodies_of(c));
-  CHECK(folder.files() == 1);
-  const HydrodynamicCoefficients back = read_bemio(folder / "set.h5", frame_of(c));
-  // Doubles throughout; moving to cg and back leaves rounding of moments about other points.
-  CHECK(difference(c.A_inf, back.A_inf) < 1e-11);
-  REQUIRE(back.frequency.size() == c.excitation.frequencies.size());
-  for (std::size_t n = 0; n < back.frequency.size(); ++n) {
-    CHECK(back.frequency[n].frequency == c.frequency[n + 1].frequency);  // without zero frequency
-    CHECK(difference(c.frequency[n + 1].A, back.frequency[n].A) < 1e-11);
-    CHECK(difference(c.frequency[n + 1].B, back.frequency[n].B) < 1e-9);
-  }
-  for (double w : {0.3, 0.7})
-    CHECK(difference(damping_from_kernels(c.retardation, c.modes(), w) + 1e-3 * c.A_inf,
-                     damping_from_kernels(back.retardation, c.modes(), w) + 1e-3 * back.A_inf) < 1e-9);
-  CHECK(difference(c.excitation, back.excitation) < 1e-11);
-  CHECK(back.volume == c.volume);
-  CHECK(back.waterline == 0.25);
-  for (std::size_t n = 0; n < c.waterplane.size(); ++n) CHECK(back.waterplane[n] == Approx(c.waterplane[n]));
-}
-
-TEST_CASE("what a BEMIO file written here looks like to WEC-Sim", "[bemio_file]") {
-  const TemporaryFolder folder;
-  HydrodynamicCoefficients c = crane_set();
-  DatabaseFrame f;
-  f.length = c.length;
-  write_bemio(folder / "set.h5", c, f, {{"crane", Vector3::Zero(), Vector3(0, 0, -2), Matrix6::Identity()}});
-  const Hdf5File file(folder / "set.h5", Hdf5File::Mode::read);
-  const std::string h = "/body1/hydro_coeffs/";
-  // MATLAB shows the dimensions in reverse: lists are rows there, arrays [w][heading or mode][mode].
-  CHECK(file.numbers("/simulation_parameters/w").shape == std::vector<std::size_t>{6, 1});
-  CHECK(file.numbers("/body1/properties/cb").shape == std::vector<std::size_t>{3, 1});
-  CHECK(file.numbers(h + "added_mass/all").shape == std::vector<std::size_t>{6, 6, 6});
-  CHECK(file.numbers(h + "excitation/mag").shape == std::vector<std::size_t>{6, 8, 6});
-  CHECK(file.numbers(h + "radiation_damping/impulse_response_fun/K").shape == std::vector<std::size_t>{6, 6, 401});
-  CHECK(file.text("/simulation_parameters/water_depth") == "infinite");
-  CHECK(file.text("/body1/properties/name") == "crane");
-  // By hand from the hull's file: heave at 0.4 rad/s.
-  CHECK(file.numbers(h + "added_mass/all").value[14 * 6] == Approx(1.207072e8 / 1025.0));
-  CHECK(file.numbers(h + "radiation_damping/all").value[14 * 6] == Approx(2.647073e7 / (1025.0 * 0.4)));
-  CHECK(file.numbers(h + "linear_restoring_stiffness").value[14] == Approx(1.0 / (1025.0 * 9.80665)));
-  // A lag there is a negative phase.
-  const double phase = file.numbers(h + "excitation/phase").value[2 * 8 * 6];
-  CHECK(phase == Approx(-std::arg(c.excitation.at(0, 0, 2))));
-  const double re = file.numbers(h + "excitation/re").value[2 * 8 * 6],
-               im = file.numbers(h + "excitation/im").value[2 * 8 * 6];
-  CHECK(std::atan2(im, re) == Approx(phase));
-  CHECK(std::hypot(re, im) == Approx(std::abs(c.excitation.at(0, 0, 2)) / (1025.0 * 9.80665)));
-}
-
-TEST_CASE("a set that a BEMIO file cannot hold is refused", "[bemio_file]") {
-  const TemporaryFolder folder;
-  HydrodynamicCoefficients c = crane_set();
-  c.retardation = {};
-  c.frequency.pop_back();
-  const BemioBody body{"crane", Vector3::Zero(), Vector3::Zero(), Matrix6::Identity()};
-  DatabaseFrame f;
-  f.length = c.length;
-  CHECK_THROWS_WITH(write_bemio(folder / "set.h5", c, f, {body}), Catch::Contains("at all frequencies"));
-  CHECK_THROWS_WITH(write_bemio(folder / "set.h5", c, f, {}), Catch::Contains("every hull"));
-  c.excitation = {};
-  CHECK_THROWS_WITH(write_bemio(folder / "set.h5", c, f, {body}), Catch::Contains("no excitation"));
-  CHECK(folder.files() == 0);
-  CHECK_THROWS_WITH(write_bemio("/nowhere/set.h5", crane_set(), f, {body}),
-                    Catch::Contains("/nowhere/set.h5: cannot be written"));
 }
 
 }  // namespace stillhook
