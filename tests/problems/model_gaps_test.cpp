@@ -35,7 +35,8 @@ TEST_CASE("a load that goes through the surface is told, one that stays in air i
                  Contains("without a hull it has no buoyancy"));
 }
 
-TEST_CASE("a phase that takes a hull through the surface and far beyond is told, phases of its height are not", "[gaps]") {
+TEST_CASE("a phase that takes a hull through the surface and far beyond is told, phases of its height are not",
+          "[gaps]") {
   const auto gaps = [](std::vector<Override> more) {
     const Case c = read_case(std::string(STILLHOOK_SOURCE_DIR) + "/tests/lifts/deep_lowering.toml", std::move(more));
     const Model model = build_model(c.specification);
@@ -46,8 +47,24 @@ TEST_CASE("a phase that takes a hull through the surface and far beyond is told,
   // As written, phases end 0 m over and 0 m under the surface. With the first of them 5 m higher the splash zone is of
   // 7.5 m for a hull of 2.5 m.
   CHECK_THAT(gaps({}), !Contains("evenly"));
-  CHECK_THAT(gaps({{"operation.phases.to_the_surface.moves.winch.goal.value_m", "4.25"}}),
-             Contains("phase splash_zone takes module through the surface and beyond") && Contains("end one phase where"));
+  CHECK_THAT(
+      gaps({{"operation.phases.to_the_surface.moves.winch.goal.value_m", "4.25"}}),
+      Contains("phase splash_zone takes module through the surface and beyond") && Contains("end one phase where"));
+}
+
+TEST_CASE("a wire paid out to many times its first length keeps its dashpot, and that is told", "[gaps]") {
+  const auto gaps = [](std::vector<Override> more) {
+    const Case c = read_case(std::string(STILLHOOK_SOURCE_DIR) + "/tests/lifts/deep_lowering.toml", std::move(more));
+    const Model model = build_model(c.specification);
+    std::string all;
+    for (const std::string& gap : model_gaps(model, build_operation(model))) all += gap + "\n";
+    return all;
+  };
+  // 10 m to the sea bed at 816 m: 0.02 of critical becomes 0.02 sqrt(81.6) = 0.181. A dashpot in kN s/m is what it says.
+  CHECK_THAT(gaps({}), !Contains("damping_ratio"));
+  CHECK_THAT(gaps({{"wires.wire.damping_ratio", "0.02"}, {"wires.wire.damping_mass_t", "100.0"}}),
+             Contains("wire wire is paid out from 10 m to 816") && Contains("which is 0.181 of critical") &&
+                 Contains("give damping_kN_s_per_m"));
 }
 
 TEST_CASE("a vessel that no line holds is told", "[gaps]") {
