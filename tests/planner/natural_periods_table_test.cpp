@@ -53,7 +53,8 @@ drives = [{ drive = "hoist", position_m = -780.0 }]
 /// Rows of a table of `check --json` by the name of their pose.
 std::map<std::string, json> rows(const std::string& text, const std::string& title) {
   std::map<std::string, json> found;
-  for (const json& table : json::parse(text)["tables"])
+  const json document = json::parse(text);
+  for (const json& table : document["tables"])
     if (table["title"] == title)
       for (const json& row : table["rows"]) found[row[0]] = row;
   return found;
