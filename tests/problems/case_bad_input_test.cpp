@@ -1,7 +1,7 @@
 // The corpus of broken cases: each is told its sentence, at its place, and nothing else crashes on the way.
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -14,6 +14,7 @@
 
 #include "problems/case.h"
 #include "problems/case_document.h"
+#include "tests/program_path.h"
 
 namespace stillhook {
 namespace {
@@ -114,7 +115,7 @@ TEST_CASE("the program tells each broken case on stderr and ends with 2", "[case
   for (const char* mesh : {"open.obj", "inverted.obj", "foreign.h5", "short.1"}) fs::copy_file(kFolder + "/" + mesh, folder / mesh);
   const std::string file = (folder / "bad.toml").string(), messages = (folder / "stderr").string();
   const std::string command =
-      std::string(STILLHOOK_PROGRAM) + " check '" + file + "' > /dev/null 2> '" + messages + "'";
+      program_path() + " check '" + file + "' > /dev/null 2> '" + messages + "'";
   for (const Broken& b : corpus()) {
     INFO(b.name);
     std::ofstream(file, std::ios::binary) << b.text;
@@ -128,7 +129,7 @@ TEST_CASE("the program tells each broken case on stderr and ends with 2", "[case
 }
 
 TEST_CASE("huge, deep and binary input is refused at once", "[case][bad_input]") {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // processor time: the machine may be busy with other things
   CHECK(what_is_said(std::string(10 << 20, '[')) ==
         "bad.toml:1:1: the file has 10485760 bytes, a case may have at most 4194304");
   CHECK(what_is_said("a = " + std::string(1 << 20, '[')) == "bad.toml:1:37: brackets are nested deeper than 32");
@@ -138,7 +139,7 @@ TEST_CASE("huge, deep and binary input is refused at once", "[case][bad_input]")
                                  7)) == "bad.toml:1:1: is a binary file, not a case in TOML text");
   CHECK(what_is_said("name = \"\xff\xfe\"").find("bad.toml:1:") == 0);
   // Generous: it takes milliseconds; quadratic or recursive parsing would take minutes or crash.
-  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 5.0);
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 5.0);
 }
 
 TEST_CASE("a file that is not there, or a folder, is named", "[case][bad_input]") {

@@ -35,6 +35,8 @@ def relink(build, target, objects, flags, output, openmp=None):
             skip = False
         elif word == "-o":
             skip = True
+        elif word.endswith("allocation_test.cpp.o"):
+            pass  # counts requests for memory in a malloc of its own, which would take the sanitizer's place
         elif word not in replaced and not (openmp and word.endswith("libgomp.so")):
             kept.append(word)
     subprocess.run([*kept, "-o", str(output)], cwd=build, check=True)

@@ -2,7 +2,7 @@
 #include "tuning/record.h"
 
 #include <catch2/catch.hpp>
-#include <chrono>
+#include <ctime>
 #include <functional>
 
 #include "problems/case.h"
@@ -172,12 +172,12 @@ TEST_CASE("a million rows are read in a second or two", "[record]") {
   std::string text = "t_s,a,b,roll\n";
   for (int i = 0; i < 1000000; ++i) text += fmt::format("{:.3f},1.5,2.5,{:.5f}\n", 0.01 * i, std::sin(0.01 * i));
   const FitRecordSpec spec = roll_in_degrees(folder.write("long.csv", text));
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // processor time: the machine may be busy with other things
   const MeasuredRecord r = read_record(spec, channels(), 0.2);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   CHECK(r.rows == 1000000);
   CHECK(r.time.size() == 50000);
-  CHECK(took.count() < 5.0);  // 0.5 s on a quiet machine; a quadratic algorithm would take hours
+  CHECK(took < 20.0);  // 0.5 s, ten times that with sanitizers; a quadratic algorithm would take hours
 }
 
 TEST_CASE("every bad record is told its sentence", "[record][bad_input]") {
