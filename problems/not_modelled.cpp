@@ -37,10 +37,9 @@ const std::vector<Missing>& missing_things() {
       {{"weight_n_per_m", "weight_kn_per_m", "mass_kg_per_m", "mass_t_per_m", "weight_t_per_m"},
        "stillhook does not model the weight of wires yet"},
       {{"mudmat", "suction"}, "stillhook does not model suction of the seabed yet"},
-      {{"rao", "raos", "displacement_rao", "qtf", "qtfs"},
-       "stillhook does not model vessels by given displacement RAOs or drift coefficients yet: it takes added mass, "
-       "damping "
-       "and excitation forces (kinds \"database\" and \"table\") or computes them (\"panels\")"}};
+      {{"raos", "displacement_rao"},
+       "a vessel that moves by displacement RAOs has hydrodynamics.kind = \"rao\" and the table [bodies.hydrodynamics.rao]"},
+      {{"qtf", "qtfs"}, "stillhook does not model mean and slow drift forces yet"}};
   return all;
 }
 

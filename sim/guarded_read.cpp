@@ -22,8 +22,8 @@ constexpr rlim_t kSeconds = 3;               // of processor time, and one more 
 constexpr rlim_t kMemory = rlim_t{1} << 30;  // bytes beyond what the process has
 constexpr rlim_t kMemoryPerByte = 64;        // of the file: numbers may be compressed that well
 
-// Exit codes of the child.
-constexpr int kWhole = 0, kSentence = 2, kTooMuchMemory = 3, kNoPipe = 4;
+// Exit codes of the child; unlike those of a library that ends the process.
+constexpr int kWhole = 71, kSentence = 72, kTooMuchMemory = 73, kNoPipe = 74;
 
 // The sanitizers reserve terabytes of address space, and no limit on it can be set beneath them.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "sim/lifting/tagline.h"
+#include "sim/lifting/wire.h"
 
 namespace stillhook {
 namespace {
@@ -43,11 +44,22 @@ int nearest(const Eigensystem& in, const MatrixX& M, const VectorX& shape) {
   return best;
 }
 
-// dQ/dxi of the taglines alone.
-MatrixX tagline_stiffness(const MultibodySystem& system, SystemState& state, SystemWorkspace& work) {
+// Strain below which a wire is taken as slack. A wire that just touches ("slack_m = 0") is on the one side or the other by
+// rounding, and its whole stiffness with it; nothing that carries a load is stretched so little.
+constexpr double kJustTaut = 1e-9;
+
+bool is_left_out(const ForceElement& element, const Instant& now, bool with_taglines) {
+  if (const auto* wire = dynamic_cast<const Wire*>(&element))
+    return wire->tension(now) < kJustTaut * wire->options().axial_stiffness;
+  return !with_taglines && dynamic_cast<const Tagline*>(&element) != nullptr;
+}
+
+// dQ/dxi of the elements that take no part in small motions.
+MatrixX stiffness_left_out(const MultibodySystem& system, SystemState& state, SystemWorkspace& work,
+                           bool with_taglines) {
   JacobianSum sum(static_cast<int>(system.bodies.size()));
   for (std::size_t e = 0; e < system.elements.size(); ++e)
-    if (dynamic_cast<const Tagline*>(system.elements[e].get()))
+    if (is_left_out(*system.elements[e], state.instant(), with_taglines))
       system.elements[e]->add_jacobian(state.instant(), 0.0, system.memory(static_cast<int>(e), state, work), sum);
   return sum.stiffness();
 }
@@ -122,8 +134,8 @@ std::vector<Mode> ModalAnalysis::at(const SystemState& equilibrium, bool with_ta
     Z = MatrixX(qr.householderQ()).rightCols(system.coordinates() - qr.rank());
   }
   if (Z.cols() == 0) return {};  // nothing can move
-  MatrixX by_motion = work.jacobian.stiffness();
-  if (!with_taglines) by_motion -= tagline_stiffness(system, state, work);
+  const MatrixX by_motion =
+      work.jacobian.stiffness() - stiffness_left_out(system, state, work, with_taglines);
   MatrixX K = -Z.transpose() * by_motion * Z;
   K = (0.5 * (K + K.transpose())).eval();  // friction and winch laws apart it is symmetric in equilibrium
 

@@ -9,7 +9,7 @@ namespace stillhook {
 /// At most six digits, as short as they can be: "0.25", "401000", "1e-07".
 inline std::string number_text(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
+  std::snprintf(text, sizeof text, "%.6g", value + 0.0);  // never "-0"
   return text;
 }
 

@@ -120,7 +120,7 @@ TEST_CASE("check draws the start pose into a file and every pose into a folder")
   CHECK(run(folder, {"check", kCase, "--draw", "start.svg/poses"}).code == 2);  // a file is no folder
 }
 
-TEST_CASE("--quiet prints nothing but errors, and JSON where it is asked for") {
+TEST_CASE("quiet: nothing is printed but errors, and JSON where it is asked for") {
   const Folder folder;
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"check", kCase},

@@ -72,7 +72,7 @@ TEST_CASE("plan follows gradients and certifies in conditions it has not seen", 
   const Folder folder;
   const Result r = run(folder, {"plan", kCase, "--out", "plan", "--evaluations", "6", "--set",
                                 "plan.gradient_algorithm=slsqp", "--set", "plan.gradient_evaluations=5", "--set",
-                                "plan.global_algorithm=none", "--set", "plan.certify=3", "--quiet"});
+                                "plan.global_algorithm=none", "--set", "plan.certify=3"});
   INFO(r.err);
   REQUIRE(r.code == 0);
   CHECK_THAT(r.out, Contains("slsqp+cobyla") && Contains("In 6 fresh conditions"));
