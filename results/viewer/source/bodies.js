@@ -118,7 +118,7 @@ export class Body {
         this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(meshGeometry(payload, body.envelope), EDGE_ANGLE),
           new THREE.LineBasicMaterial({ color: COLOURS[body.kind] })));
       if (body.members.length) this.group.add(...memberBody(body));
-      this.group.add(...pedestals(body));
+      for (const pedestal of pedestals(body)) this.group.add(pedestal); // add() of nothing is an error to three.js
     }
   }
 
