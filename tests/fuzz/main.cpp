@@ -30,6 +30,13 @@
 #include "tests/fuzz/readers.h"
 
 namespace fs = std::filesystem;
+
+// There in programs that are linked with a sanitizer.
+extern "C" {
+__attribute__((weak)) void __asan_init();
+__attribute__((weak)) void __tsan_init();
+}
+
 using namespace stillhook::fuzz;
 using Clock = std::chrono::steady_clock;
 
@@ -95,10 +102,12 @@ void read_one(const Reader& reader, const Budget& budget, const std::string& pat
 /// The child: reads inputs until the budget is used. Ends with _exit(0), or with _exit(1) and a sentence in `fault`.
 [[noreturn]] void read_on(const Reader& reader, const Budget& budget, Clock::time_point end, const std::string& path,
                           Shared& shared) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve address space by the terabyte
-  const rlimit limit{kMostMemory, kMostMemory};
-  setrlimit(RLIMIT_AS, &limit);
-#endif
+  // The sanitizers reserve address space by the terabyte. They may come with the other objects of the link alone, so the
+  // program that runs is asked, not the compiler.
+  if (&__asan_init == nullptr && &__tsan_init == nullptr) {
+    const rlimit limit{kMostMemory, kMostMemory};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   std::freopen("/dev/null", "w", stderr);  // libraries complain there about what we refuse
   const std::uint64_t last = budget.first + budget.executions;
   for (; (budget.executions == 0 || shared.next < last) && (budget.seconds == 0.0 || Clock::now() < end); ++shared.next)
