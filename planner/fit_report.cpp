@@ -9,11 +9,11 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-#include "planner/shown_unit.h"
 #include "planner/report_page.h"
 #include "planner/text_number.h"
 #include "results/html.h"
 #include "results/plot.h"
+#include "results/quantity.h"
 
 namespace stillhook {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "planner/fit_report.h"
-#include "planner/shown_unit.h"
 #include "planner/text_number.h"
+#include "results/quantity.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -21,14 +21,6 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 }
 
 }  // namespace
-
-ShownUnit shown_unit(const std::string& si) {
-  if (si == "rad") return {"deg", kDegree};
-  if (si == "rad/s") return {"deg/s", kDegree};
-  if (si == "N") return {"kN", 1e3};
-  if (si == "N m") return {"kN m", 1e3};
-  return {si, 1.0};
-}
 
 std::string verdict_of(const Identification& result) {
   if (!result.usable) return "No fit: " + result.message;

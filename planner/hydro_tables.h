@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "planner/hydro_convergence.h"
-#include "planner/shown_unit.h"
 #include "results/report.h"
+
+#include "results/quantity.h"
 
 namespace stillhook {
 

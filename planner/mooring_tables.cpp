@@ -35,8 +35,8 @@ ReportTable line_table(const Model& model) {
     const Vector3 fairlead = body.p_WC + body.R_WB * at.c_B;
     table.rows.push_back({spec.name, spec.body, place(fairlead), place(line->anchor()),
                           cell((line->anchor() - fairlead).head<2>().norm(), 1),
-                          cell(values.at(spec.name + ".tension") / 1e3, 1),
-                          cell(values.at(spec.name + ".horizontal_tension") / 1e3, 1)});
+                          cell(values.at(mooring_channels::tension.of(spec)) / 1e3, 1),
+                          cell(values.at(mooring_channels::horizontal_tension.of(spec)) / 1e3, 1)});
   }
   return table;
 }

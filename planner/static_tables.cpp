@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-
 #include "planner/hinge_table.h"
 #include "planner/mooring_tables.h"
 #include "planner/natural_periods.h"
 #include "planner/text_number.h"
 #include "planner/vessel_statics.h"
 #include "sim/drive_unit.h"
+#include "sim/lifting/wire.h"
 #include "sim/spatial/constants.h"
 #include "sim/statics.h"
 
@@ -51,7 +51,7 @@ ReportTable place_table(const Model& model, const std::vector<StaticPose>& poses
 }
 
 ReportTable wire_table(const Model& model, const std::vector<StaticPose>& poses, const std::string& title,
-                       const std::string& note, const std::string& channel, double unit, int decimals) {
+                       const std::string& note, const ChannelKind<WireSpec>& channel, double unit, int decimals) {
   ReportTable table;
   table.title = title;
   table.note = note;
@@ -60,7 +60,7 @@ ReportTable wire_table(const Model& model, const std::vector<StaticPose>& poses,
   for (const StaticPose& pose : poses) {
     std::vector<std::string> row = {pose.name};
     for (const WireSpec& wire : model.specification().wires)
-      row.push_back(cell(value_of(pose, wire.name + "." + channel) / unit, decimals));
+      row.push_back(cell(value_of(pose, channel.of(wire)) / unit, decimals));
     table.rows.push_back(row);
   }
   return table;
@@ -98,8 +98,9 @@ std::vector<ReportTable> static_tables(const Model& model, const Operation& oper
   for (ReportTable& table : mooring_tables(model)) tables.push_back(std::move(table));
   if (model.specification().wires.empty()) return tables;
   const double tonne = 1000.0 * model.specification().sea.gravity;
-  tables.push_back(wire_table(model, poses, "Wire tensions", "In t: the force that holds this mass.", "tension", tonne, 1));
-  tables.push_back(wire_table(model, poses, "Wire lengths", "Stretched, in m.", "length", 1.0, 2));
+  tables.push_back(wire_table(model, poses, "Wire tensions", "In t: the force that holds this mass.",
+                              wire_channels::tension, tonne, 1));
+  tables.push_back(wire_table(model, poses, "Wire lengths", "Stretched, in m.", wire_channels::length, 1.0, 2));
   return tables;
 }
 

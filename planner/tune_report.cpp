@@ -9,6 +9,7 @@
 #include "planner/report_page.h"
 #include "planner/version.h"
 #include "results/html.h"
+#include "results/quantity.h"
 
 namespace stillhook {
 namespace {
@@ -185,12 +186,11 @@ ReportTable winch_table(const GainTuning& result) {
                     "At the tuned gains. Wanted: what a winch without limits would do in the worst scenario.",
                     {"", "saturated", "speed, m/min", "wanted, m/min", "pull, t", "wanted, t", "keeps up with what is wanted"},
                     {}};
-  constexpr double kPerMinute = 60.0, kTonne = 9806.65;
   for (const WinchDemand& w : result.winches)
     table.rows.push_back({w.line, fmt::format("{:.1f} %", 100.0 * w.saturated),
-                          w.speed_limit > 0.0 ? fmt::format("{:.3g}", kPerMinute * w.speed_limit) : "no limit",
-                          fmt::format("{:.3g}", kPerMinute * w.speed_wanted),
-                          fmt::format("{:.3g}", w.pull_limit / kTonne), fmt::format("{:.3g}", w.pull_wanted / kTonne),
+                          w.speed_limit > 0.0 ? fmt::format("{:.3g}", w.speed_limit / kPerMinute) : "no limit",
+                          fmt::format("{:.3g}", w.speed_wanted / kPerMinute),
+                          fmt::format("{:.3g}", w.pull_limit / kTonneForce), fmt::format("{:.3g}", w.pull_wanted / kTonneForce),
                           w.too_slow() ? "no, too slow for this sea: no gain can help" : "yes"});
   return table;
 }
@@ -240,7 +240,7 @@ Summary tuning_summary(const Evaluator& evaluator, const GainTuning& result, dou
       s.warnings.push_back(
           fmt::format("{} is too slow for this sea: it is at its limit for {:.0f} % of the time and would "
                       "need {:.3g} m/min and {:.3g} t",
-                      w.line, 100.0 * w.saturated, 60.0 * w.speed_wanted, w.pull_wanted / 9806.65));
+                      w.line, 100.0 * w.saturated, w.speed_wanted / kPerMinute, w.pull_wanted / kTonneForce));
   return s;
 }
 

@@ -4,6 +4,8 @@
 #include "planner/text_number.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/immersion.h"
+#include "sim/lifting/contact.h"
+#include "sim/lifting/wire.h"
 #include "sim/multibody/assembly.h"
 #include "sim/spatial/constants.h"
 
@@ -39,13 +41,13 @@ Burden burden_of(const Model& model, const StaticPose& pose, int hull) {
     if (!carried(w.from) || carried(w.to) || w.to == "world") continue;
     const Vector3 upper = pose.bodies[model.body_index(w.from)] * w.point_from;
     const Vector3 lower = pose.bodies[model.body_index(w.to)] * w.point_to;
-    const double vertical = pose.values.at(w.name + ".tension") * (upper - lower).normalized().z();
+    const double vertical = pose.values.at(wire_channels::tension.of(w)) * (upper - lower).normalized().z();
     burden.add(vertical / s.sea.gravity, upper);
   }
   for (const ContactSpec& c : s.contacts) {
     if (!carried(c.surface_body) || carried(c.body)) continue;
     const int body = model.body_index(c.body);
-    burden.add(pose.values.at(c.name + ".force") / s.sea.gravity, pose.bodies[body] * s.bodies[body].cog);
+    burden.add(pose.values.at(contact_channels::force.of(c)) / s.sea.gravity, pose.bodies[body] * s.bodies[body].cog);
   }
   return burden;
 }

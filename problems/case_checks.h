@@ -13,10 +13,11 @@ namespace stillhook {
 /// Duplicate names across kinds, unknown names.
 void check_names(const Case& c, const Node& root, const std::vector<NamedThing>& references, Findings& findings);
 
-/// Mass and inertia, self references, drives of the wrong kind or without anything to move, gear, phases, goals.
+/// Mass and inertia, self references, drives without anything to move, every entry of every kind of force element
+/// (problems/format), phases, goals.
 void check_lift(const Case& c, const Node& root, Findings& findings);
 
-/// Moorings and springs to the world; vessels that move by displacement RAOs, and what cannot be with them.
+/// Vessels that move by displacement RAOs, and what cannot be with them.
 void check_stations(const Case& c, const Node& root, Findings& findings);
 
 /// Metrics that exist, variables that lead to a number between their bounds, scenarios.

@@ -5,6 +5,7 @@
 
 #include "problems/case_checks.h"
 #include "problems/case_key.h"
+#include "problems/entry_check.h"
 #include "sim/drive_unit.h"
 
 namespace stillhook {
@@ -18,12 +19,12 @@ class LiftCheck {
   void run() {
     for (const BodySpec& body : spec_.bodies) check_body(body);
     for (const JointSpec& joint : spec_.joints) check_joint(joint);
-    for (const WireSpec& wire : spec_.wires) check_wire(wire);
-    for (const TaglineSpec& tagline : spec_.taglines) check_tagline(tagline);
-    for (const MooringSpec& mooring : spec_.moorings) check_mooring(mooring);
-    for (const ContactSpec& contact : spec_.contacts) check_contact(contact);
-    for (const BallastSpec& ballast : spec_.ballast)
-      wants_kind("ballast." + ballast.name, "drive", ballast.drive, DriveSpec::Kind::ballast);
+    for_each_element_kind([&](const auto& kind) {
+      for (const auto& entry : spec_.*kind.entries) {
+        EntryCheck check(spec_, root_, findings_, std::string(kind.section) + "." + entry.name);
+        check_entry(entry, check);
+      }
+    });
     for (const DriveSpec& drive : spec_.drives) check_used(drive);
     for (const SeaStateSpec& state : spec_.sea.states) check_sea(state);
     for (const PhaseSpec& phase : spec_.operation.phases) check_phase(phase);
@@ -49,40 +50,8 @@ class LiftCheck {
     return {};
   }
 
-  const DriveSpec* drive(const std::string& name) const { return named(spec_.drives, name); }
-  const JointSpec* joint(const std::string& name) const { return named(spec_.joints, name); }
-  template <class Entries>
-  static auto named(const Entries& entries, const std::string& name) -> decltype(&entries.front()) {
-    for (const auto& entry : entries)
-      if (entry.name == name) return &entry;
-    return nullptr;
-  }
-
-  static std::string kind_text(DriveSpec::Kind kind) {
-    switch (kind) {
-      case DriveSpec::Kind::winch:
-        return "winch";
-      case DriveSpec::Kind::ballast:
-        return "ballast";
-      case DriveSpec::Kind::tow:
-        return "tow";
-      case DriveSpec::Kind::joint:
-        return "joint";
-    }
-    return {};
-  }
-
-  void wants_kind(const std::string& entry, const std::string& key, const std::string& name, DriveSpec::Kind kind) {
-    const DriveSpec* found = drive(name);
-    if (found && found->kind != kind)
-      report(entry, key,
-             fmt::format("must name a drive of kind \"{}\", \"{}\" is a \"{}\"", kind_text(kind), name,
-                         kind_text(found->kind)));
-  }
-
-  void wants_direction(const std::string& entry, const std::string& key, const Vector3& direction) {
-    if (!(direction.norm() > 0.0)) report(entry, key, "must not be [0, 0, 0]");
-  }
+  const DriveSpec* drive(const std::string& name) const { return entry_named(spec_.drives, name); }
+  const JointSpec* joint(const std::string& name) const { return entry_named(spec_.joints, name); }
 
   void check_body(const BodySpec& body) {
     const std::string entry = "bodies." + body.name;
@@ -116,9 +85,9 @@ class LiftCheck {
       report("panel_method", "highest_rad_per_s",
              fmt::format("must be above lowest_rad_per_s = {:.6g}, got {:.6g}", p.lowest, p.highest));
     if (p.direct_highest <= p.direct_lowest)
-      report("panel_method", "direct_highest_rad_per_s",
-             fmt::format("must be above direct_lowest_rad_per_s = {:.6g}, got {:.6g}", p.direct_lowest,
-                         p.direct_highest));
+      report(
+          "panel_method", "direct_highest_rad_per_s",
+          fmt::format("must be above direct_lowest_rad_per_s = {:.6g}, got {:.6g}", p.direct_lowest, p.direct_highest));
   }
 
   void check_hull(const BodySpec& body, const std::string& entry) {
@@ -143,64 +112,24 @@ class LiftCheck {
     const std::string entry = "joints." + j.name;
     if (j.parent == j.child)
       report(entry, "child", fmt::format("must be another body than the parent \"{}\"", j.parent));
+    EntryCheck check(spec_, root_, findings_, entry);
     if (j.type == JointSpec::Type::revolute || j.type == JointSpec::Type::prismatic)
-      wants_direction(entry, "axis", j.axis);
+      check.wants_direction("axis", j.axis);
     if (j.drive.empty()) return;
-    wants_kind(entry, "drive", j.drive, DriveSpec::Kind::joint);
+    check.wants_drive("drive", j.drive, DriveSpec::Kind::joint);
     if (!(j.stiffness > 0.0)) report(entry, "drive", "needs a stiffness of the joint to act through");
   }
 
-  void check_wire(const WireSpec& w) {
-    const std::string entry = "wires." + w.name;
-    if (w.from == w.to) report(entry, "to", fmt::format("must be another body than from, both are \"{}\"", w.from));
-    if (w.damping_ratio > 0.0 && !(w.damping_mass > 0.0)) report(entry, "damping_ratio", "needs damping_mass_t");
-    if (!w.winch.empty()) wants_kind(entry, "winch", w.winch, DriveSpec::Kind::winch);
-    if (w.breaking_load > 0.0 && w.tension_max > w.breaking_load)
-      report(entry, "tension_max_kN",
-             fmt::format("must be at most the breaking load {:.6g} kN, got {:.6g}", w.breaking_load / 1e3,
-                         w.tension_max / 1e3));
-    const JointSpec* held = w.hold_joint.empty() ? nullptr : joint(w.hold_joint);
-    if (held && held->type != JointSpec::Type::revolute && held->type != JointSpec::Type::prismatic)
-      report(entry, "hold_joint",
-             fmt::format("must be a revolute or prismatic joint, \"{}\" has no coordinate", held->name));
-  }
-
-  void check_tagline(const TaglineSpec& t) {
-    const std::string entry = "taglines." + t.name;
-    if (t.from == t.to) report(entry, "to", fmt::format("must be another body than from, both are \"{}\"", t.from));
-    if (t.pretension > t.tension_max)
-      report(entry, "pretension_kN",
-             fmt::format("must be at most tension_max_kN {:.6g}, got {:.6g}", t.tension_max / 1e3, t.pretension / 1e3));
-    const WireSpec* wire = named(spec_.wires, t.wire);
-    if (wire && wire->role != WireSpec::Role::hoist)
-      report(entry, "wire", fmt::format("must be a wire with role = \"hoist\", \"{}\" is not", t.wire));
-  }
-
-  void check_mooring(const MooringSpec& m) {
-    const std::string entry = "moorings." + m.name;
-    if (m.tow.empty()) {
-      if (m.tow_direction.norm() > 0.0) report(entry, "tow_direction", "needs tow, the drive that moves the far end");
-      return;
-    }
-    wants_kind(entry, "tow", m.tow, DriveSpec::Kind::tow);
-    if (!written(entry, "tow_direction"))
-      report(entry, "tow", "needs tow_direction");
-    else
-      wants_direction(entry, "tow_direction", m.tow_direction);
-  }
-
-  void check_contact(const ContactSpec& contact) {
-    if (contact.body == contact.surface_body)
-      report("contacts." + contact.name, "surface_body", fmt::format("must be another body than \"{}\"", contact.body));
-  }
-
   void check_used(const DriveSpec& d) {
-    const auto moves = [&d](const auto& entries, auto member) {
-      return std::any_of(entries.begin(), entries.end(), [&](const auto& e) { return e.*member == d.name; });
-    };
-    if (!moves(spec_.wires, &WireSpec::winch) && !moves(spec_.joints, &JointSpec::drive) &&
-        !moves(spec_.moorings, &MooringSpec::tow) && !moves(spec_.ballast, &BallastSpec::drive))
-      report("drives." + d.name, "", "moves nothing: no wire, joint, mooring or ballast names it");
+    bool used = std::any_of(spec_.joints.begin(), spec_.joints.end(), [&](auto& j) { return j.drive == d.name; });
+    std::string nouns = "joint";
+    for_each_element_kind([&](const auto& kind) {
+      if (!kind.drive) return;
+      nouns += std::string(", ") + kind.noun;
+      for (const auto& entry : spec_.*kind.entries) used = used || entry.*kind.drive == d.name;
+    });
+    nouns.replace(nouns.rfind(", "), 2, " or ");
+    if (!used) report("drives." + d.name, "", "moves nothing: no " + nouns + " names it");
   }
 
   void check_sea(const SeaStateSpec& state) {

@@ -89,11 +89,7 @@ void check_shared_names(const Specification& s, const Node& root, Findings& find
   claim("bodies", names_in(s.bodies));
   claim("joints", names_in(s.joints));
   claim("drives", names_in(s.drives));
-  claim("wires", names_in(s.wires));
-  claim("taglines", names_in(s.taglines));
-  claim("moorings", names_in(s.moorings));
-  claim("restoring", names_in(s.restoring));
-  claim("contacts", names_in(s.contacts));
+  for_each_element_kind([&](const auto& kind) { claim(kind.section, names_in(s.*kind.entries)); });
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What keeps floating bodies in place, moorings and springs, and what moves them instead: displacement RAOs.
+// Vessels that move by displacement RAOs, and what cannot be with them.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,8 +15,6 @@ class StationCheck {
       : spec_(c.specification), root_(root), findings_(findings) {}
 
   void run() {
-    for (const MooringSpec& mooring : spec_.moorings) check_mooring(mooring);
-    for (const RestoringSpec& restoring : spec_.restoring) check_restoring(restoring);
     for (const BodySpec& body : spec_.bodies)
       if (body.moved_by_sea()) check_moved_by_sea(body);
   }
@@ -27,43 +25,6 @@ class StationCheck {
   }
   bool written(const std::string& entry, const std::string& key) const {
     return find_key(root_, entry, key) != nullptr;
-  }
-
-  void check_mooring(const MooringSpec& m) {
-    const std::string entry = "moorings." + m.name;
-    const bool catenary = m.type == MooringSpec::Type::catenary, follows = catenary && m.anchor;
-    if (catenary && !(spec_.sea.depth > 0.0)) report(entry, "type", "\"catenary\" needs sea.depth_m");
-    if (catenary && m.weight == 0.0)
-      report(entry, "weight_N_per_m",
-             "must not be 0: a line as heavy as water is straight; give it as a wire from \"world\", or as type = "
-             "\"linear\"");
-    if (!follows && !written(entry, "pretension_kN"))
-      report(entry, "pretension_kN", m.anchor ? "is required with type = \"linear\"" : "is required with azimuth_deg");
-    else if (catenary && !m.anchor && !(m.pretension > 0.0))
-      report(entry, "pretension_kN", "must be > 0 kN, got 0");
-    if (follows && written(entry, "pretension_kN"))
-      report(entry, "pretension_kN",
-             "cannot stand beside anchor_m: with its two ends the tension of a catenary follows from length_m; leave "
-             "one of them out");
-    if (catenary) return;
-    if (m.anchor && written(entry, "anchor_distance_m"))
-      report(entry, "anchor_distance_m", "cannot stand beside anchor_m, leave one of them out");
-    if (!m.anchor && !written(entry, "anchor_distance_m"))
-      report(entry, "anchor_distance_m", "is required with azimuth_deg");
-  }
-
-  void check_restoring(const RestoringSpec& r) {
-    const std::string entry = "restoring." + r.name;
-    for (const auto& [matrix, pieces] : {std::pair{"stiffness_matrix_kN_m", "angular_stiffness_kN_m_per_rad"},
-                                         std::pair{"damping_matrix_kN_s_m", "angular_damping_kN_m_s_per_rad"}})
-      if (written(entry, matrix) && written(entry, pieces))
-        report(entry, pieces, fmt::format("cannot stand beside \"{}\", give one of them", matrix));
-    if (r.stiffness.isZero(0.0) && r.damping.isZero(0.0) && r.force_at_rest.isZero(0.0))
-      report(entry, "", "does nothing: give it a stiffness, a damping or a force_at_rest_kN");
-    for (const BodySpec& body : spec_.bodies)
-      if (body.name == r.body && body.moved_by_sea())
-        report(entry, "body",
-               fmt::format("\"{}\" moves by displacement RAOs, which no spring changes: leave the entry out", r.body));
   }
 
   void check_moved_by_sea(const BodySpec& body) {

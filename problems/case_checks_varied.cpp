@@ -24,8 +24,8 @@ class VariedKeyCheck {
       const std::vector<KeyTarget> targets = find_targets(copy, varied_.key);
       const std::optional<double> start = start_value(targets);
       if (start && ordered && !(varied_.lower <= *start && *start <= varied_.upper))
-        report("",
-               fmt::format("the start value {:.6g} lies outside [{:.6g}, {:.6g}]", *start, varied_.lower, varied_.upper));
+        report("", fmt::format("the start value {:.6g} lies outside [{:.6g}, {:.6g}]", *start, varied_.lower,
+                               varied_.upper));
       if (start) check_range(*targets.front().field);
     } catch (const KeyError& error) {
       report("", fmt::format("leads nowhere: {}", error.what()));

@@ -9,18 +9,18 @@ namespace stillhook {
 /// The whole document; its struct is Case.
 const Table& case_table();
 
+/// The table of a kind of force element (problems/format), as a function without arguments.
+template <class Spec>
+const Table& element_table() {
+  return case_table(static_cast<const Spec*>(nullptr));
+}
+
 const Table& sea_table();
 const Table& body_table();
 const Table& hydrodynamics_table();
 const Table& rao_table();
 const Table& joint_table();
 const Table& drive_table();
-const Table& wire_table();
-const Table& tagline_table();
-const Table& mooring_table();
-const Table& restoring_table();
-const Table& contact_table();
-const Table& ballast_table();
 const Table& operation_table();
 const Table& pose_table();
 const Table& clearance_table();

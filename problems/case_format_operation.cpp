@@ -198,7 +198,9 @@ const Table& operation_table() {
     using S = OperationSpec;
     TableOf<S> t("operation", "What is done: phases in sequence.");
     t.text("load", &S::load, "The lifted body.").names(Reference::body).absent("none");
-    t.text("crane", &S::crane, "The crane vessel, or a body that stands on one: heel and trim are those of the vessel under it. Not needed where "
+    t.text("crane", &S::crane,
+           "The crane vessel, or a body that stands on one: heel and trim are those of the vessel under it. Not needed "
+           "where "
            "the joints under the hoist wires lead to the vessel.")
         .names(Reference::body)
         .absent("none");
@@ -242,7 +244,8 @@ const Table& solver_table() {
     using S = SolverSpec;
     TableOf<S> t("solver", "Time stepping: HHT-alpha on the index-3 equations.");
     t.number("time_step_s", &S::time_step, unit::s, positive(), "Time step.");
-    t.number("hht_alpha", &S::hht_alpha, unit::one, between(-1.0 / 3.0, 0.0), "Numerical damping; below 0 with joints, whose multipliers would ring at 0.");
+    t.number("hht_alpha", &S::hht_alpha, unit::one, between(-1.0 / 3.0, 0.0),
+             "Numerical damping; below 0 with joints, whose multipliers would ring at 0.");
     t.number("newton_tolerance", &S::newton_tolerance, unit::one, Range{0.0, 1e-2, true},
              "Relative tolerance of Newton's method.");
     t.number("output_interval_s", &S::output_interval, unit::s, positive(), "Interval of the recorded history.");
@@ -278,14 +281,11 @@ const Table& case_table() {
         .absent("defaults");
     t.tables("joints", spec(&Specification::joints), "name", &joint_table, "Joints.").absent("none");
     t.tables("drives", spec(&Specification::drives), "name", &drive_table, "Drives.").absent("none");
-    t.tables("wires", spec(&Specification::wires), "name", &wire_table, "Wires.").absent("none");
-    t.tables("taglines", spec(&Specification::taglines), "name", &tagline_table, "Taglines.").absent("none");
-    t.tables("moorings", spec(&Specification::moorings), "name", &mooring_table, "Moorings.").absent("none");
-    t.tables("restoring", spec(&Specification::restoring), "name", &restoring_table,
-             "Linear springs to the world.")
-        .absent("none");
-    t.tables("contacts", spec(&Specification::contacts), "name", &contact_table, "Contacts.").absent("none");
-    t.tables("ballast", spec(&Specification::ballast), "name", &ballast_table, "Ballast transfers.").absent("none");
+    for_each_element_kind([&](const auto& kind) {
+      using Entry = typename std::remove_cvref_t<decltype(kind)>::Spec;
+      t.tables(kind.section, spec(kind.entries), "name", &element_table<Entry>, std::string(kind.title) + ".")
+          .absent("none");
+    });
     t.table("operation", spec(&Specification::operation), &operation_table, "The operation.").require();
     t.tables("poses", spec(&Specification::poses), "name", &pose_table, "Poses to report.").absent("none");
     t.tables("clearances", spec(&Specification::clearances), "name", &clearance_table, "Clearances to report.")

@@ -24,8 +24,8 @@ std::vector<ConstraintSpec> constraints_of(const Case& c) {
     if (!limit.hard) continue;
     const MetricDefinition* metric = metric_definition(limit.metric);
     if (!metric) throw CaseError("limits." + limit.metric + ": there is no such metric");
-    if (limit.max) constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->unit), true, limit.share});
-    if (limit.min) constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->unit), false, limit.share});
+    if (limit.max) constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->quantity), true, limit.share});
+    if (limit.min) constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->quantity), false, limit.share});
   }
   return constraints;
 }
@@ -53,13 +53,8 @@ void check_objective(const Case& c) {
 
 }  // namespace
 
-double limit_scale(double limit, const std::string& unit) {
-  if (limit != 0.0) return std::abs(limit);
-  // One step: what a user would call a first noticeable violation.
-  if (unit == "m" || unit == "m/s") return 0.1;
-  if (unit == "kN" || unit == "kN s") return 100.0;
-  if (unit == "s") return 60.0;
-  return 1.0;  // deg, counts
+double limit_scale(double limit, Quantity quantity) {
+  return limit != 0.0 ? std::abs(limit) : noticeable_step(quantity);
 }
 
 Evaluator::Evaluator(Case c, const std::atomic<bool>* stop) : Evaluator(c, scenarios_of(c), stop) {}

@@ -137,6 +137,6 @@ class Evaluator {
 };
 
 /// The size that makes a violation comparable with others: |limit|, or one step of the unit if that is zero.
-double limit_scale(double limit, const std::string& unit);
+double limit_scale(double limit, Quantity quantity);
 
 }  // namespace stillhook

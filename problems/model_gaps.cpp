@@ -8,6 +8,7 @@
 #include "sim/crane_parts.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/mesh.h"
+#include "sim/lifting/wire.h"
 #include "sim/modes.h"
 #include "sim/spatial/constants.h"
 
@@ -115,7 +116,7 @@ void find_long_payout(const Model& model, const Operation& operation, std::vecto
     if (!(wires[i].damping_ratio > 0.0) || !(first > 0.0)) continue;
     double longest = first;
     for (const StaticPose& pose : operation.static_poses)
-      if (const auto length = pose.values.find(wires[i].name + ".unstretched"); length != pose.values.end())
+      if (const auto length = pose.values.find(wire_channels::unstretched.of(wires[i])); length != pose.values.end())
         longest = std::max(longest, length->second);
     if (longest <= kLonger * first) continue;
     gaps.push_back(fmt::format(

@@ -9,7 +9,6 @@
 namespace stillhook::archive {
 namespace {
 
-
 /// Names of variables that are not channels, and of dimensions; no channel's variable may take one.
 const std::set<std::string> kReserved = {"time",        "channel", "operation_phase", "contact_event",
                                          "static_pose", "body",    "drive",           "static_value",

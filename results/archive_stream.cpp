@@ -8,6 +8,7 @@
 
 #include "results/archive_layout.h"
 #include "results/files.h"
+#include "sim/lifting/contact.h"
 
 namespace stillhook {
 
@@ -25,8 +26,8 @@ double sample_bytes(std::size_t channels) { return static_cast<double>(sizeof(do
 /// Samples that a growing file of so many channels has room for at first: the whole run if it is of ordinary length.
 std::size_t room_for(const SampleForecast& forecast, std::size_t channels) {
   // A run that waits for events takes longer than planned, most of them by less than this.
-  const std::size_t whole = forecast.expected + forecast.expected / 50 +
-                            static_cast<std::size_t>(kSyncEvery / forecast.interval) + 1;
+  const std::size_t whole =
+      forecast.expected + forecast.expected / 50 + static_cast<std::size_t>(kSyncEvery / forecast.interval) + 1;
   return std::min(whole, static_cast<std::size_t>(kFirstRoom / sample_bytes(channels)) + 1);
 }
 
@@ -140,7 +141,7 @@ struct ArchiveStream::Growing {
   void put_contacts(const Trajectory& run) {
     for (; contacts < std::min(run.contacts.size(), kContacts); ++contacts) {
       const ContactEvent& event = run.contacts[contacts];
-      const int channel = run.find(event.contact + ".force"), role = static_cast<int>(event.role);
+      const int channel = run.find(contact_channels::force.of(event.contact)), role = static_cast<int>(event.role);
       const auto phase = std::find_if(run.phases.begin(), run.phases.end(),
                                       [&](const PhaseRecord& p) { return p.name == event.phase; });
       const int phase_index = static_cast<int>(phase - run.phases.begin());

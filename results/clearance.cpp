@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
-#include "results/run_view.h"
+#include "sim/run_channels.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
@@ -61,8 +63,7 @@ class BodyTrack {
  public:
   BodyTrack(const RunView& view, const std::string& body) : fixed_(body == "world") {
     if (fixed_) return;
-    const char* names[6] = {".x", ".y", ".z", ".roll", ".pitch", ".yaw"};
-    for (int i = 0; i < 6; ++i) series_[i] = view.series(body + names[i]);
+    for (std::size_t i = 0; i < 6; ++i) series_[i] = view.series(body_channels::pose[i].of(body));
   }
   bool recorded() const {
     return fixed_ || std::none_of(series_, series_ + 6, [](const auto& s) { return s.empty(); });
@@ -78,45 +79,81 @@ class BodyTrack {
   std::span<const double> series_[6];
 };
 
+/// A distance at some samples, with the smallest of every phase.
+class DistanceSearch {
+ public:
+  DistanceSearch(const RunView& view, std::function<double(std::size_t)> distance)
+      : view_(view),
+        distance_(std::move(distance)),
+        known_(view.run().time.size(), kNaN),
+        least_(view.run().phases.size()) {
+    for (const std::size_t p : view.all_phases()) ranges_.push_back(view.samples(p));
+  }
+
+  double look(std::size_t i) {
+    known_[i] = distance_(i);
+    for (std::size_t p = 0; p < ranges_.size(); ++p)
+      if (i >= ranges_[p].first && i < ranges_[p].last) least_[p].take_smaller(known_[i], view_.run().time[i]);
+    return known_[i];
+  }
+  /// True if a distance as low as this at sample i would be the smallest of a phase.
+  bool could_matter(double lowest, std::size_t i) const {
+    for (std::size_t p = 0; p < ranges_.size(); ++p)
+      if (i >= ranges_[p].first && i < ranges_[p].last && !(lowest > least_[p].value)) return true;
+    return false;
+  }
+
+  ClearanceSeries result(const std::string& name) const {
+    ClearanceSeries out;
+    out.name = name;
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (std::isnan(known_[i])) continue;
+      out.time.push_back(view_.run().time[i]);
+      out.distance.push_back(known_[i]);
+    }
+    const auto lowest = std::min_element(out.distance.begin(), out.distance.end());
+    out.minimum = *lowest;
+    out.minimum_time = out.time[static_cast<std::size_t>(lowest - out.distance.begin())];
+    out.by_phase = least_;
+    return out;
+  }
+
+ private:
+  const RunView& view_;
+  std::function<double(std::size_t)> distance_;
+  std::vector<double> known_;  // m, NaN where nobody has looked
+  std::vector<RunView::Range> ranges_;
+  std::vector<Peak> least_;
+};
+
 ClearanceSeries series_of(const RunView& view, const ClearanceSpec& pair, double spacing) {
-  ClearanceSeries result;
-  result.name = pair.name;
   const std::vector<double>& time = view.run().time;
   const BodyTrack body_a(view, pair.a.body), body_b(view, pair.b.body);
-  if (time.empty() || !body_a.recorded() || !body_b.recorded()) return result;
+  if (time.empty() || !body_a.recorded() || !body_b.recorded()) {
+    ClearanceSeries none;
+    none.name = pair.name;
+    return none;
+  }
   const Solid a = build_solid(pair.a), b = build_solid(pair.b);
-  const auto distance = [&](std::size_t i) { return solid_distance(a, body_a(i), b, body_b(i)); };
+  DistanceSearch search(view, [&](std::size_t i) { return solid_distance(a, body_a(i), b, body_b(i)); });
 
   std::vector<std::pair<std::size_t, double>> coarse;
   for (std::size_t i = 0; i < time.size(); ++i)
     if (coarse.empty() || i + 1 == time.size() || time[i] - time[coarse.back().first] >= spacing * (1.0 - 1e-9))
-      coarse.emplace_back(i, distance(i));
-  double best = coarse.front().second, fastest = 0.0;
-  for (std::size_t k = 0; k < coarse.size(); ++k) {
-    best = std::min(best, coarse[k].second);
-    if (k > 0)
-      fastest = std::max(fastest, std::abs(coarse[k].second - coarse[k - 1].second) /
-                                      (time[coarse[k].first] - time[coarse[k - 1].first]));
+      coarse.emplace_back(i, search.look(i));
+  double fastest = 0.0;
+  for (std::size_t k = 1; k < coarse.size(); ++k)
+    fastest = std::max(fastest, std::abs(coarse[k].second - coarse[k - 1].second) /
+                                    (time[coarse[k].first] - time[coarse[k - 1].first]));
+  for (std::size_t k = 1; k < coarse.size(); ++k) {
+    const auto& [i0, d0] = coarse[k - 1];
+    const auto& [i1, d1] = coarse[k];
+    // Two lines falling at the fastest rate from both ends meet at the lowest value the distance can have between.
+    const double lowest = 0.5 * (d0 + d1 - fastest * (time[i1] - time[i0]));
+    for (std::size_t i = i0 + 1; i < i1; ++i)
+      if (search.could_matter(lowest, i)) search.look(i);
   }
-  for (std::size_t k = 0; k < coarse.size(); ++k) {
-    if (k > 0) {
-      const auto& [i0, d0] = coarse[k - 1];
-      const auto& [i1, d1] = coarse[k];
-      // Two lines falling at the fastest rate from both ends meet at the lowest value the distance can have between.
-      const double lowest = 0.5 * (d0 + d1 - fastest * (time[i1] - time[i0]));
-      for (std::size_t i = i0 + 1; i < i1 && lowest <= best; ++i) {
-        result.time.push_back(time[i]);
-        result.distance.push_back(distance(i));
-        best = std::min(best, result.distance.back());
-      }
-    }
-    result.time.push_back(time[coarse[k].first]);
-    result.distance.push_back(coarse[k].second);
-  }
-  const auto lowest = std::min_element(result.distance.begin(), result.distance.end());
-  result.minimum = *lowest;
-  result.minimum_time = result.time[static_cast<std::size_t>(lowest - result.distance.begin())];
-  return result;
+  return search.result(pair.name);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "results/html.h"
 #include "sim/crane_parts.h"
+#include "sim/lifting/wire.h"
+#include "sim/run_channels.h"
 #include "sim/spatial/constants.h"
 #include "sim/spatial/pose.h"
 
@@ -18,9 +20,12 @@ constexpr double kSameRadius = 0.25, kSameElevation = 0.5;  // m and deg: booms 
 std::vector<Vector3> path_of(const RunView& view, const std::string& body, const Vector3& point) {
   std::vector<Vector3> path;
   if (body == "world") return std::vector<Vector3>(view.run().time.size(), point);
-  const auto x = view.series(body + ".x"), y = view.series(body + ".y"), z = view.series(body + ".z"),
-             roll = view.series(body + ".roll"), pitch = view.series(body + ".pitch"), yaw = view.series(body + ".yaw");
-  if (x.empty() || y.empty() || z.empty() || roll.empty() || pitch.empty() || yaw.empty()) return path;
+  std::array<std::span<const double>, 6> pose;
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    pose[i] = view.series(body_channels::pose[i].of(body));
+    if (pose[i].empty()) return path;
+  }
+  const auto& [x, y, z, roll, pitch, yaw] = pose;
   for (std::size_t i = 0; i < x.size(); ++i)
     path.push_back(Vector3(x[i], y[i], z[i]) + rotation_from({roll[i], pitch[i], yaw[i]}) * point);
   return path;
@@ -89,7 +94,7 @@ bool together(const Boom& a, const Boom& b) {
 std::vector<double> sum_of_tensions(const RunView& view, const std::vector<std::string>& wires) {
   std::vector<double> sum;
   for (const std::string& wire : wires) {
-    const auto tension = view.series(wire + ".tension");
+    const auto tension = view.series(wire_channels::tension.of(wire));
     if (tension.empty()) continue;
     sum.resize(tension.size(), 0.0);
     for (std::size_t i = 0; i < tension.size(); ++i) sum[i] += tension[i] / (1000.0 * kStandardGravity);

@@ -7,6 +7,8 @@
 
 #include "results/deck_corners.h"
 #include "sim/crane_parts.h"
+#include "sim/lifting/wire.h"
+#include "sim/run_channels.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -28,12 +30,11 @@ std::string at(const RunView& view, double t) { return fmt::format("at {:.1f} s 
 void find_parted_wires(const RunView& view, std::vector<Failure>& failures) {
   for (const WireSpec& wire : view.specification().wires) {
     if (!(wire.breaking_load > 0.0)) continue;
-    const Peak largest = view.maximum(wire.name + ".tension", view.all_phases());
+    const Peak largest = view.maximum(wire_channels::tension.of(wire), view.all_phases());
     if (!(largest.value > wire.breaking_load)) continue;
-    const auto tension = view.series(wire.name + ".tension");
-    const double t = first_time(view, largest.time, [&](std::size_t i) {
-      return i < tension.size() && tension[i] > wire.breaking_load;
-    });
+    const auto tension = view.series(wire_channels::tension.of(wire));
+    const double t = first_time(view, largest.time,
+                                [&](std::size_t i) { return i < tension.size() && tension[i] > wire.breaking_load; });
     failures.push_back({t, fmt::format("wire {} parts {}: it is asked to hold {:.0f} kN, {:.3g} times its breaking "
                                        "load of {:.0f} kN",
                                        wire.name, at(view, t), largest.value / 1e3, largest.value / wire.breaking_load,
@@ -43,10 +44,11 @@ void find_parted_wires(const RunView& view, std::vector<Failure>& failures) {
 
 void find_capsized(const RunView& view, std::vector<Failure>& failures) {
   for (const std::string& body : operation_vessels(view.specification()))
-    for (const auto& [quantity, what] : {std::pair{".roll", "heels"}, std::pair{".pitch", "trims"}}) {
-      const Peak largest = view.largest_magnitude(body + quantity, view.all_phases());
+    for (const auto& [quantity, what] :
+         {std::pair{body_channels::roll, "heels"}, std::pair{body_channels::pitch, "trims"}}) {
+      const Peak largest = view.largest_magnitude(quantity.of(body), view.all_phases());
       if (!(largest.value > kCapsized)) continue;
-      const auto angle = view.series(body + quantity);
+      const auto angle = view.series(quantity.of(body));
       const double t = first_time(view, largest.time,
                                   [&](std::size_t i) { return i < angle.size() && std::abs(angle[i]) > kCapsized; });
       failures.push_back({t, fmt::format("{} capsizes {}: it {} by up to {:.1f} deg, more than {:.0f} deg", body,
@@ -83,17 +85,17 @@ void find_flooded(const RunView& view, std::vector<Failure>& failures) {
 void find_lost_load(const RunView& view, std::vector<Failure>& failures) {
   for (const WireSpec& wire : view.specification().wires) {
     if (wire.role != WireSpec::Role::hoist) continue;
-    const auto x = view.series(wire.name + ".offset_x"), y = view.series(wire.name + ".offset_y"),
-               length = view.series(wire.name + ".length"), tension = view.series(wire.name + ".tension");
+    const auto x = view.series(wire_channels::offset_x.of(wire)), y = view.series(wire_channels::offset_y.of(wire)),
+               length = view.series(wire_channels::length.of(wire)),
+               tension = view.series(wire_channels::tension.of(wire));
     if (x.empty() || y.empty() || length.empty() || tension.empty()) continue;
     double carried = 0.0;
     for (std::size_t i = 0; i < view.run().static_poses.size(); ++i)
-      carried = std::max(carried, view.static_value(i, wire.name + ".tension"));
+      carried = std::max(carried, view.static_value(i, wire_channels::tension.of(wire)));
     Peak first;
     for (std::size_t i = 0; i < view.run().time.size() && !first.valid(); ++i) {
       const double angle = std::asin(std::min(1.0, std::hypot(x[i], y[i]) / length[i]));
-      if (tension[i] > kCarries * carried && tension[i] > 0.0 && angle > kSwungOut)
-        first = {angle, view.run().time[i]};
+      if (tension[i] > kCarries * carried && tension[i] > 0.0 && angle > kSwungOut) first = {angle, view.run().time[i]};
     }
     if (first.valid())
       failures.push_back(

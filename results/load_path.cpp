@@ -36,8 +36,9 @@ double nearest_hanging(const RunView& view, std::size_t phase, const std::vector
 
 /// Smallest ratio in a phase in which the load hangs free throughout.
 void take_hanging(const RunView& view, std::size_t p, const std::string& channel, Peak& smallest) {
+  const StaticLoad static_load(view, p, {channel});
   const auto take = [&](double tension, double t) {
-    const double at_rest = static_load(view, p, t, {channel});
+    const double at_rest = static_load.at(t);
     if (at_rest > 0.0) smallest.take_smaller(tension / at_rest, t);
   };
   if (const Peak low = view.minimum(channel, {p}); low.valid()) take(low.value, low.time);
@@ -52,8 +53,9 @@ void take_resting(const RunView& view, std::size_t p, const std::string& channel
   const auto tension = view.series(channel);
   const double low = std::min(view.static_value(p, channel), view.static_value(p + 1, channel));
   const bool landed = view.run().phases[p].stage != Stage::transfer;
+  const StaticLoad static_load(view, p, {channel});
   const auto take = [&](double tension_then, double t) {
-    const double whole = static_load(view, p, t, {channel});
+    const double whole = static_load.at(t);
     if (!(whole > 0.0)) return;
     const bool free = t >= free_from && t < free_until && view.run().phases[p].stage != Stage::landed;
     if (free) smallest.take_smaller(tension_then / whole, t);
@@ -94,17 +96,25 @@ double landing_time(const RunView& view) {
   return first;
 }
 
-double static_load(const RunView& view, std::size_t phase, double t, const std::vector<std::string>& channels) {
+StaticLoad::StaticLoad(const RunView& view, std::size_t phase, const std::vector<std::string>& channels)
+    : view_(view), phase_(phase) {
   const bool from = view.hangs(phase), to = view.hangs(phase + 1);
   if (from && to) {
-    double sum = 0.0;
-    for (const std::string& name : channels) sum += view.static_at(phase, t, name);
-    return sum;
+    for (const std::string& name : channels) paths_.push_back(view.static_path(phase, name));
+    return;
   }
-  const double ends = larger(static_sum(view, phase, channels), static_sum(view, phase + 1, channels));
-  if (from || to) return ends;
+  constant_ = larger(static_sum(view, phase, channels), static_sum(view, phase + 1, channels));
+  if (from || to) return;
   const double hanging = nearest_hanging(view, phase, channels);
-  return std::isnan(hanging) ? kNaN : larger(ends, hanging);
+  constant_ = std::isnan(hanging) ? kNaN : larger(constant_, hanging);
+}
+
+double StaticLoad::at(double t) const {
+  if (paths_.empty()) return constant_;
+  const double progress = view_.progress(phase_, t);
+  double sum = 0.0;
+  for (const StaticPath& path : paths_) sum += path.at(progress);
+  return sum;
 }
 
 Peak largest_amplification(const RunView& view, const std::vector<std::string>& channels,
@@ -114,8 +124,9 @@ Peak largest_amplification(const RunView& view, const std::vector<std::string>& 
   for (const std::string& name : channels) series.push_back(view.series(name));
   const bool sampled = std::none_of(series.begin(), series.end(), [](const auto& s) { return s.empty(); });
   for (const std::size_t p : phases) {
+    const StaticLoad static_load(view, p, channels);
     const auto take = [&](double tension, double t) {
-      const double at_rest = static_load(view, p, t, channels);
+      const double at_rest = static_load.at(t);
       if (at_rest > 0.0) largest.take_larger(tension / at_rest, t);
     };
     if (channels.size() == 1)
@@ -131,17 +142,19 @@ Peak largest_amplification(const RunView& view, const std::vector<std::string>& 
   return largest;
 }
 
-Peak smallest_share(const RunView& view, const std::string& channel) {
+Peak smallest_share(const RunView& view, const std::string& channel, std::size_t phase) {
   Peak smallest;
+  const Stage stage = view.run().phases[phase].stage;
+  if (stage == Stage::on_barge) return smallest;
+  if (stage == Stage::hanging) {
+    take_hanging(view, phase, channel, smallest);
+    return smallest;
+  }
   const std::vector<ContactSpec>& contacts = view.specification().contacts;
   const bool has_support = std::any_of(contacts.begin(), contacts.end(),
                                        [](const ContactSpec& c) { return c.role == ContactSpec::Role::pickup; });
   const double free_from = has_support ? lift_off_time(view) : view.start(), free_until = landing_time(view);
-  for (const std::size_t p : view.all_phases()) {
-    if (view.run().phases[p].stage == Stage::hanging) take_hanging(view, p, channel, smallest);
-    if (view.run().phases[p].stage == Stage::on_barge || view.run().phases[p].stage == Stage::hanging) continue;
-    take_resting(view, p, channel, free_from, free_until, smallest);
-  }
+  take_resting(view, phase, channel, free_from, free_until, smallest);
   return smallest;
 }
 

@@ -10,7 +10,7 @@ std::string metric_reference_markdown() {
   std::string out = "| metric | unit | meaning |\n|---|---|---|\n";
   for (const MetricDefinition& d : metric_catalogue())
     out += fmt::format("| `{}` | {} | {}{} |\n", d.name, d.unit, d.description,
-                       d.element.empty() ? "" : "; % is a " + d.element);
+                       d.element == MetricElement::none ? std::string() : "; % is a " + word_of(d));
   return out;
 }
 

@@ -9,6 +9,8 @@
 #include "results/crane_readings.h"
 #include "results/html.h"
 #include "results/series_codec.h"
+#include "sim/lifting/mooring.h"
+#include "sim/run_channels.h"
 #include "sim/sea/wave_field.h"
 #include "sim/spatial/constants.h"
 
@@ -16,7 +18,7 @@ namespace stillhook {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kTonne = 9806.65;      // N
+constexpr double kTonne = kTonneForce;
 constexpr double kBeforeLiftOff = 5.0;  // s, that the replay opens before it
 
 Json numbers(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -125,13 +127,13 @@ Json mesh_entry(const Mesh& mesh, Payload& payload) {
 Json pose_entry(const RunView& view, const std::string& body, Payload& payload) {
   Json pose = Json::array();
   std::array<std::span<const double>, 3> angles;
-  for (const char* axis : {".x", ".y", ".z"}) {
-    const auto values = view.series(body + axis);
+  for (const auto& axis : body_channels::position) {
+    const auto values = view.series(axis.of(body));
     if (values.empty()) return Json::array();
     pose.push_back(payload.add_series(payload.samples().plain(values)));
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    angles[i] = view.series(body + std::array{".roll", ".pitch", ".yaw"}[i]);
+    angles[i] = view.series(body_channels::attitude[i].of(body));
     if (angles[i].empty()) return Json::array();
   }
   const std::size_t n = payload.samples().count();
@@ -228,7 +230,8 @@ Json scene_entry(const ReportData& data, const RunView& view, const Scene& scene
               {"bodies", bodies_entry(scene, view, payload)},
               {"lines", Json::array()},
               {"moorings", Json::array()},
-              {"surfaces", Json::array()}};
+              {"surfaces", Json::array()},
+              {"arrows", Json::array()}};
   for (const SceneLine& line : scene.lines)
     out["lines"].push_back({{"name", readable_name(line.name)},
                             {"kind", kind_name(line.kind)},
@@ -238,16 +241,26 @@ Json scene_entry(const ReportData& data, const RunView& view, const Scene& scene
                             {"point_to", numbers(line.point_to)},
                             {"reference", line.reference / kTonne},
                             {"shown_from", number_or_null(line.shown_from)},
-                            {"tension", channel_series(view, line.name + ".tension", payload, 1.0 / kTonne)}});
+                            {"tension", channel_series(view, line.tension, payload, 1.0 / kTonne)}});
   for (const SceneMooring& m : scene.moorings)
-    out["moorings"].push_back({{"name", readable_name(m.name)},
-                               {"body", m.body},
-                               {"fairlead", numbers(m.fairlead)},
-                               {"anchor", numbers(m.anchor)},
-                               {"weight", m.weight},
-                               {"horizontal", channel_series(view, m.name + ".horizontal_tension", payload)},
-                               {"tow", m.tow.empty() ? -1 : channel_series(view, m.tow + ".position", payload)},
-                               {"tow_direction", numbers(m.tow_direction)}});
+    out["moorings"].push_back(
+        {{"name", readable_name(m.name)},
+         {"body", m.body},
+         {"fairlead", numbers(m.fairlead)},
+         {"anchor", numbers(m.anchor)},
+         {"weight", m.weight},
+         {"horizontal", channel_series(view, mooring_channels::horizontal_tension.of(m.name), payload)},
+         {"tow", m.tow.empty() ? -1 : channel_series(view, drive_channels::position.of(m.tow), payload)},
+         {"tow_direction", numbers(m.tow_direction)}});
+  for (const SceneArrow& arrow : scene.arrows)
+    out["arrows"].push_back(
+        {{"name", readable_name(arrow.name)},
+         {"body", arrow.body},
+         {"point", numbers(arrow.point)},
+         {"reference", arrow.reference},
+         {"force",
+          {channel_series(view, arrow.force[0], payload), channel_series(view, arrow.force[1], payload),
+           channel_series(view, arrow.force[2], payload)}}});
   for (const SceneSurface& s : scene.surfaces)
     out["surfaces"].push_back({{"name", readable_name(s.name)},
                                {"role", role_name(s.role)},
@@ -332,8 +345,8 @@ Json readings_entry(const ReportData& data, const RunView& view, Payload& payloa
   };
   for (const CraneReading& reading : crane_readings(view))
     add(reading.label, reading.unit, reading.decimals, payload.add_series(payload.samples().peaks(reading.values)));
-  add("load height", "m", 2, channel_series(view, data.specification.operation.load + ".z", payload));
-  add("wave", "m", 2, channel_series(view, "sea.elevation", payload));
+  add("load height", "m", 2, channel_series(view, body_channels::z.of(data.specification.operation.load), payload));
+  add("wave", "m", 2, channel_series(view, sea_channels::elevation, payload));
   return out;
 }
 
@@ -342,7 +355,8 @@ Json readings_entry(const ReportData& data, const RunView& view, Payload& payloa
 std::string replay_text(const ReportData& data, const RunView& view, const Scene& scene,
                         const std::vector<ReportFigure>& figures, std::size_t budget) {
   const std::vector<double>& time = data.trajectory.time;
-  std::size_t series = 7 * scene.bodies.size() + scene.lines.size() + 2 * scene.moorings.size() + 3 +
+  std::size_t series = 7 * scene.bodies.size() + scene.lines.size() + 2 * scene.moorings.size() +
+                       3 * scene.arrows.size() + 3 +
                        3 * scene.lines.size();  // readings: at most three for each hoist wire
   for (const ReportFigure& figure : figures) series += figure.plot.lines.size();
   const Samples samples(time, series, budget);

@@ -3,7 +3,7 @@
 // Text: base64 of zlib of [length of the header, uint32 little-endian][header, JSON][blocks]. The header names
 //   time      {at, count}: milliseconds, pack_integers()
 //   series    [{at, low, step, order}]: pack_series(), one value a time
-//   scene     bodies, lines, moorings, surfaces, sea, target: SI, frames as in scene.h; "pose" holds the seven series
+//   scene     bodies, lines, moorings, surfaces, arrows, sea, target: SI, frames as in scene.h; "pose" holds the seven series
 //             of a body: x, y, z of Bo in W, then the quaternion w, x, y, z of R_WB
 //   phases    [{name, stage, start, end}], contacts [{name, kind, time, ...}]
 //   plots     the figures of the report in their order: lines, limits, ranges, markers

@@ -7,6 +7,8 @@
 #include "results/html.h"
 #include "results/load_path.h"
 #include "results/report_parts.h"
+#include "sim/lifting/wire.h"
+#include "sim/run_channels.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -36,13 +38,13 @@ struct PhaseLoad {
 PhaseLoad phase_load(const RunView& view, const std::vector<const WireSpec*>& wires, std::size_t p) {
   PhaseLoad out;
   for (const WireSpec* wire : wires) {
-    out.static_start += view.static_value(p, wire->name + ".tension");
-    out.static_end += view.static_value(p + 1, wire->name + ".tension");
+    out.static_start += view.static_value(p, wire_channels::tension.of(*wire));
+    out.static_end += view.static_value(p + 1, wire_channels::tension.of(*wire));
   }
   std::vector<std::string> channels;
   std::vector<std::span<const double>> tensions;
   for (const WireSpec* wire : wires) {
-    channels.push_back(wire->name + ".tension");
+    channels.push_back(wire_channels::tension.of(*wire));
     tensions.push_back(view.series(channels.back()));
     if (tensions.back().empty()) return out;
   }
@@ -110,15 +112,15 @@ std::string offset_table(const ReportData& data, const RunView& view) {
                                     [&](const MooringSpec& m) { return m.body == body.name && m.tow.empty(); }) ||
                         std::any_of(data.specification.restoring.begin(), data.specification.restoring.end(),
                                     [&](const RestoringSpec& r) { return r.body == body.name; });
-    const auto x = view.series(body.name + ".x"), y = view.series(body.name + ".y");
+    const auto x = view.series(body_channels::x.of(body)), y = view.series(body_channels::y.of(body));
     if (!moored || x.empty() || y.empty()) continue;
     Peak fore, athwart, away;
     for (std::size_t p = 0; p < view.run().phases.size(); ++p) {
       const RunView::Range range = view.samples(p);
       for (std::size_t i = range.first; i < range.last; ++i) {
         const double t = view.run().time[i];
-        const double dx = x[i] - view.planned_at(p, t, body.name + ".x");
-        const double dy = y[i] - view.planned_at(p, t, body.name + ".y");
+        const double dx = x[i] - view.planned_at(p, t, body_channels::x.of(body));
+        const double dy = y[i] - view.planned_at(p, t, body_channels::y.of(body));
         fore.take_larger(std::abs(dx), t);
         athwart.take_larger(std::abs(dy), t);
         away.take_larger(std::hypot(dx, dy), t);

@@ -12,16 +12,6 @@
 
 namespace stillhook {
 
-/// A value with its unit as people read it: "0.42 m", "4 903 kN (500.0 t)".
-struct Shown {
-  std::string value;  // in the unit of `unit`
-  std::string unit;
-  std::string aside;  // the same in the operator's unit, may be empty
-};
-
-/// A metric's value for its catalogue unit; `name` decides which second unit helps (m/min for winches, t for loads).
-Shown show_metric(const std::string& name, const std::string& unit, double value);
-
 /// A plot over time of the report.
 struct ReportFigure {
   std::string group;  // the heading it stands under
@@ -37,9 +27,6 @@ inline constexpr std::size_t kShownContacts = 400;
 
 /// "re-hit", "set-down", ...
 std::string contact_kind(const ReportData& data, const ContactEvent& contact);  // report_tables.cpp
-
-/// "1:02:05" from seconds, "2:05" below an hour.
-std::string clock_time(double seconds);
 
 /// The same as an element that the viewer turns into a way to jump there.
 std::string event_time(double seconds);

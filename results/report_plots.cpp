@@ -5,15 +5,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "results/channel_plot.h"
 #include "results/clearance.h"
 #include "results/html.h"
 #include "results/report_parts.h"
 #include "sim/crane_parts.h"
+#include "sim/lifting/contact.h"
+#include "sim/lifting/tagline.h"
+#include "sim/lifting/wire.h"
+#include "sim/run_channels.h"
 
 namespace stillhook {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi, kTonnes = 1.0 / 9806.65, kPerMinute = 60.0;
+constexpr double kDegrees = 1.0 / kDegree, kTonnes = 1.0 / kTonneForce, kMinutes = 1.0 / kPerMinute;
 
 class Plots {
  public:
@@ -73,6 +78,7 @@ class Plots {
 
   /// Starts a new heading.
   void group(const std::string& title) { group_ = title; }
+  const std::string& group() const { return group_; }
   /// Keeps a plot that shows something.
   void add(Plot plot, const std::string& caption = "") {
     const auto shows = [](const PlotLine& line) {
@@ -93,18 +99,21 @@ class Plots {
 
 void load_plots(const ReportData& data, Plots& plots) {
   const std::string& load = data.specification.operation.load;
-  for (const auto& [axis, title] :
-       {std::pair{"x", "Load, fore and aft (x)"}, {"y", "Load, athwart (y)"}, {"z", "Load, height (z)"}}) {
+  for (const auto& [axis, title] : {std::pair{body_channels::x, "Load, fore and aft (x)"},
+                                    {body_channels::y, "Load, athwart (y)"},
+                                    {body_channels::z, "Load, height (z)"}}) {
     Plot plot = plots.make(title, "position, m");
-    plots.line(plot, load + "." + axis, "load", 1.0);
-    plots.static_line(plot, load + "." + axis, "calm water", 1.0);
+    plots.line(plot, axis.of(load), "load", 1.0);
+    plots.static_line(plot, axis.of(load), "calm water", 1.0);
     plots.contacts(plot);
     plots.add(std::move(plot));
   }
-  for (const auto& [axis, title] : {std::pair{"roll", "Load, roll"}, {"pitch", "Load, pitch"}, {"yaw", "Load, yaw"}}) {
+  for (const auto& [axis, title] : {std::pair{body_channels::roll, "Load, roll"},
+                                    {body_channels::pitch, "Load, pitch"},
+                                    {body_channels::yaw, "Load, yaw"}}) {
     Plot plot = plots.make(title, "angle, °");
     plot.height = 210.0;
-    plots.line(plot, load + "." + axis, "load", kDegrees);
+    plots.line(plot, axis.of(load), "load", kDegrees);
     plots.add(std::move(plot));
   }
 }
@@ -116,9 +125,9 @@ void hoist_plot(const ReportData& data, const RunView& view, Plots& plots) {
   int count = 0;
   for (const WireSpec& wire : data.specification.wires) {
     if (wire.role != WireSpec::Role::hoist) continue;
-    plots.line(plot, wire.name + ".tension", readable_name(wire.name), kTonnes);
+    plots.line(plot, wire_channels::tension.of(wire), readable_name(wire.name), kTonnes);
     for (std::size_t p : view.phases_of({PhaseSpec::Stage::hanging})) {
-      const double at_rest = view.static_at(p, data.trajectory.phases[p].end, wire.name + ".tension");
+      const double at_rest = view.static_at(p, data.trajectory.phases[p].end, wire_channels::tension.of(wire));
       if (!std::isfinite(at_rest)) continue;
       static_sum += at_rest;
       ++count;
@@ -139,7 +148,7 @@ void hoist_plot(const ReportData& data, const RunView& view, Plots& plots) {
 /// Breaks the lines of hoist wire angles where the wire is slack: its direction means nothing there.
 void blank_slack(const ReportData& data, const RunView& view, Plot& plot) {
   for (const WireSpec& wire : data.specification.wires) {
-    const auto tension = view.series(wire.name + ".tension");
+    const auto tension = view.series(wire_channels::tension.of(wire));
     for (PlotLine& line : plot.lines) {
       if (line.label != readable_name(wire.name) || tension.size() != line.value.size()) continue;
       for (std::size_t i = 0; i < tension.size(); ++i)
@@ -153,19 +162,19 @@ void wire_plots(const ReportData& data, const RunView& view, Plots& plots) {
   Plot other = plots.make("Luffing, stay and other wires", "tension, t");
   for (const WireSpec& wire : data.specification.wires)
     if (wire.role != WireSpec::Role::hoist)
-      plots.line(other, wire.name + ".tension", readable_name(wire.name), kTonnes);
+      plots.line(other, wire_channels::tension.of(wire), readable_name(wire.name), kTonnes);
   plots.add(std::move(other));
   Plot rates = plots.make("Winch rates (hauling in positive)", "rate, m/min");
   for (const DriveSpec& drive : data.specification.drives)
     if (drive.kind == DriveSpec::Kind::winch)
-      plots.line(rates, drive.name + ".rate", readable_name(drive.name), kPerMinute);
+      plots.line(rates, drive_channels::rate.of(drive), readable_name(drive.name), kMinutes);
   plots.add(std::move(rates));
-  for (const auto& [quantity, title, metric] : {std::tuple{".off_lead", "Off-lead of the hoist wires", "offlead_max"},
-                                                {".side_lead", "Side-lead of the hoist wires", "sidelead_max"}}) {
+  for (const auto& [quantity, title, metric] :
+       {std::tuple{wire_channels::off_lead, "Off-lead of the hoist wires", "offlead_max"},
+        {wire_channels::side_lead, "Side-lead of the hoist wires", "sidelead_max"}}) {
     Plot lead = plots.make(title, "angle, °");
     for (const WireSpec& wire : data.specification.wires)
-      if (wire.role == WireSpec::Role::hoist)
-        plots.line(lead, wire.name + quantity, readable_name(wire.name), kDegrees);
+      if (wire.role == WireSpec::Role::hoist) plots.line(lead, quantity.of(wire), readable_name(wire.name), kDegrees);
     blank_slack(data, view, lead);
     plots.limit(lead, metric, 1.0, "°", true);
     plots.add(std::move(lead));
@@ -177,22 +186,31 @@ void line_plots(const ReportData& data, Plots& plots) {
        speed = plots.make("Tagline line speeds (paying out positive)", "speed, m/min");
   bool speed_limited = false;
   for (const TaglineSpec& line : data.specification.taglines) {
-    plots.line(tension, line.name + ".tension", readable_name(line.name), kTonnes);
-    plots.line(speed, line.name + ".line_speed", readable_name(line.name), kPerMinute);
+    plots.line(tension, tagline_channels::tension.of(line), readable_name(line.name), kTonnes);
+    plots.line(speed, tagline_channels::line_speed.of(line), readable_name(line.name), kMinutes);
     if (line.speed_max > 0.0 && !speed_limited) {
-      speed.limits.push_back({fmt::format("winch limit ±{} m/min", readable_number(kPerMinute * line.speed_max)),
-                              kPerMinute * line.speed_max});
-      speed.limits.push_back({"", -kPerMinute * line.speed_max});
+      speed.limits.push_back({fmt::format("winch limit ±{} m/min", readable_number(kMinutes * line.speed_max)),
+                              kMinutes * line.speed_max});
+      speed.limits.push_back({"", -kMinutes * line.speed_max});
       speed_limited = true;
     }
   }
   plots.limit(tension, "tagline_tension_max", 1000.0 * kTonnes, "t", false);
-  Plot mooring = plots.make("Mooring line tensions", "tension, t");
-  for (const MooringSpec& line : data.specification.moorings)
-    plots.line(mooring, line.name + ".tension", readable_name(line.name), kTonnes);
   plots.add(std::move(tension));
   plots.add(std::move(speed));
-  plots.add(std::move(mooring));
+}
+
+/// What the kinds of force elements have to show under a heading.
+void element_plots(const ReportData& data, Plots& plots) {
+  for_each_element_kind([&](const auto& kind) {
+    for (const ChannelPlot& channel : channel_plots(kind.tag())) {
+      if (channel.group != plots.group()) continue;
+      Plot plot = plots.make(channel.title, channel.axis);
+      for (const auto& entry : data.specification.*kind.entries)
+        plots.line(plot, channel.channel(entry.name), readable_name(entry.name), channel.per_si);
+      plots.add(std::move(plot));
+    }
+  });
 }
 
 void geometry_plots(const ReportData& data, Plots& plots) {
@@ -210,21 +228,22 @@ void geometry_plots(const ReportData& data, Plots& plots) {
   }
   plots.add(std::move(clearance));
   const std::vector<std::string> vessels = crane_vessels(data.specification);
-  for (const auto& [quantity, title, metric] : {std::tuple{".roll", "Heel of the crane", "heel_max"},
-                                                {".pitch", "Trim of the crane (bow down positive)", "trim_max"}}) {
+  for (const auto& [quantity, title, metric] :
+       {std::tuple{body_channels::roll, "Heel of the crane", "heel_max"},
+        {body_channels::pitch, "Trim of the crane (bow down positive)", "trim_max"}}) {
     Plot plot = plots.make(title, "angle, °");
     plot.height = 210.0;
     for (const std::string& vessel : vessels) {
       const std::string of = vessels.size() > 1 ? readable_name(vessel) + " " : "";
-      plots.line(plot, vessel + quantity, of + "in waves", kDegrees);
-      plots.static_line(plot, vessel + quantity, of + "calm water", kDegrees);
+      plots.line(plot, quantity.of(vessel), of + "in waves", kDegrees);
+      plots.static_line(plot, quantity.of(vessel), of + "calm water", kDegrees);
     }
     plots.limit(plot, metric, 1.0, "°", true);
     plots.add(std::move(plot));
   }
   Plot contact = plots.make("Contact forces", "normal force, t");
   for (const ContactSpec& spec : data.specification.contacts)
-    plots.line(contact, spec.name + ".force", readable_name(spec.name), kTonnes);
+    plots.line(contact, contact_channels::force.of(spec), readable_name(spec.name), kTonnes);
   plots.contacts(contact);
   plots.add(std::move(contact));
 }
@@ -236,12 +255,18 @@ std::vector<ReportFigure> report_figures(const ReportData& data, const RunView& 
   Plots plots(data, view);
   plots.group("Load");
   load_plots(data, plots);
+  element_plots(data, plots);
   plots.group("Wires and winches");
   wire_plots(data, view, plots);
+  element_plots(data, plots);
   plots.group("Taglines and moorings");
   line_plots(data, plots);
+  element_plots(data, plots);
   plots.group("Geometry, vessel and contact");
   geometry_plots(data, plots);
+  element_plots(data, plots);
+  plots.group("Wind and water");
+  element_plots(data, plots);
   return plots.take();
 }
 

@@ -11,11 +11,13 @@
 #include "results/report_parts.h"
 #include "sim/crane_parts.h"
 #include "sim/drive_unit.h"
+#include "sim/lifting/contact.h"
+#include "sim/lifting/wire.h"
+#include "sim/run_channels.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
-
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
@@ -42,7 +44,8 @@ std::string travel_text(const Specification& s, const DriveSpec& drive, double t
     case DriveSpec::Kind::joint:
       break;
   }
-  return drive_motion(s, drive) == DriveMotion::angle ? "turn " + fixed_number(degrees(travel), 2) + "°" : "move " + fixed_number(travel, 2) + " m";
+  return drive_motion(s, drive) == DriveMotion::angle ? "turn " + fixed_number(degrees(travel), 2) + "°"
+                                                      : "move " + fixed_number(travel, 2) + " m";
 }
 
 std::string speed_text(const Specification& s, const DriveSpec& drive, double speed) {
@@ -64,7 +67,7 @@ std::string moves_text(const ReportData& data, const RunView& view, std::size_t 
     double travel = move.travel.value_or(kNaN);
     if (std::isnan(travel) && p + 1 < poses.size() && d < poses[p].drives.size() && d < poses[p + 1].drives.size())
       travel = poses[p + 1].drives[d] - poses[p].drives[d];
-    const double peak = view.largest_magnitude(drive->name + ".rate", {p}).value;
+    const double peak = view.largest_magnitude(drive_channels::rate.of(*drive), {p}).value;
     text += fmt::format("{}<b>{}</b>: {} at {}", text.empty() ? "" : "<br>", escape_html(readable_name(move.drive)),
                         travel_text(data.specification, *drive, travel),
                         speed_text(data.specification, *drive, std::isnan(peak) ? move.speed : peak));
@@ -87,7 +90,7 @@ std::string hold_point(const PhaseSpec& phase, const PhaseRecord& record) {
 double hook_load(const ReportData& data, const StaticPose& pose) {
   double sum = 0.0;
   for (const WireSpec& wire : data.specification.wires)
-    if (wire.role == WireSpec::Role::hoist) sum += value_of(pose, wire.name + ".tension");
+    if (wire.role == WireSpec::Role::hoist) sum += value_of(pose, wire_channels::tension.of(wire));
   return sum;
 }
 
@@ -111,13 +114,14 @@ void add_body_rows(Rows& rows, const ReportData& data, const std::vector<StaticP
   if (!s.operation.load.empty()) names.insert(names.begin(), s.operation.load);
   for (const std::string& name : names) {
     rows.push_back({escape_html(readable_name(name))});
-    for (const char* axis : {"x", "y", "z"})
-      add_row(rows, fmt::format("{}, m", axis), poses, 2, [&](auto& p) { return value_of(p, name + "." + axis); });
+    for (const auto& axis : body_channels::position)
+      add_row(rows, fmt::format("{}, m", axis.quantity), poses, 2, [&](auto& p) { return value_of(p, axis.of(name)); });
     const bool crane = name != s.operation.load;
-    for (const auto& [quantity, label] :
-         {std::pair{".roll", crane ? "heel" : "roll"}, {".pitch", crane ? "trim" : "pitch"}, {".yaw", "yaw"}})
+    for (const auto& [quantity, label] : {std::pair{body_channels::roll, crane ? "heel" : "roll"},
+                                          {body_channels::pitch, crane ? "trim" : "pitch"},
+                                          {body_channels::yaw, "yaw"}})
       add_row(rows, fmt::format("{}, °", label), poses, 3,
-              [&](auto& p) { return degrees(value_of(p, name + quantity)); });
+              [&](auto& p) { return degrees(value_of(p, quantity.of(name))); });
   }
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const HullSpec& hull = s.bodies[b].hull;
@@ -149,22 +153,22 @@ std::string poses_table(const ReportData& data, const std::vector<StaticPose>& p
   rows.push_back({"joints, from the start"});
   for (const JointSpec& joint : s.joints) {
     add_row(rows, escape_html(readable_name(joint.name)) + ", °", poses, 2,
-            [&](auto& p) { return degrees(value_of(p, joint.name + ".angle")); });
+            [&](auto& p) { return degrees(value_of(p, joint_channels::angle.of(joint))); });
     add_row(rows, escape_html(readable_name(joint.name)) + ", m", poses, 3,
-            [&](auto& p) { return value_of(p, joint.name + ".slide"); });
+            [&](auto& p) { return value_of(p, joint_channels::slide.of(joint)); });
   }
   rows.push_back({"wire tensions, t"});
   for (const WireSpec& wire : s.wires)
     add_row(rows, escape_html(readable_name(wire.name)), poses, 1,
-            [&](auto& p) { return value_of(p, wire.name + ".tension") / 1000.0 / kStandardGravity; });
+            [&](auto& p) { return value_of(p, wire_channels::tension.of(wire)) / 1000.0 / kStandardGravity; });
   rows.push_back({"stretched wire lengths, m"});
   for (const WireSpec& wire : s.wires)
     add_row(rows, escape_html(readable_name(wire.name)), poses, 2,
-            [&](auto& p) { return value_of(p, wire.name + ".length"); });
+            [&](auto& p) { return value_of(p, wire_channels::length.of(wire)); });
   rows.push_back({"contact forces, t"});
   for (const ContactSpec& contact : s.contacts)
     add_row(rows, escape_html(readable_name(contact.name)), poses, 1,
-            [&](auto& p) { return value_of(p, contact.name + ".force") / 1000.0 / kStandardGravity; });
+            [&](auto& p) { return value_of(p, contact_channels::force.of(contact)) / 1000.0 / kStandardGravity; });
 
   Rows filled;  // headings with nothing under them go
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -77,8 +77,7 @@ std::string convergence_plot(const SearchSection& search) {
 std::string objective_table(const SearchSection& search) {
   std::vector<std::vector<std::string>> rows;
   for (const SearchSection::Term& t : search.terms) {
-    const Shown before = show_metric(t.metric, t.unit, t.baseline_value),
-                after = show_metric(t.metric, t.unit, t.plan_value);
+    const Shown before = show_metric(t.metric, t.baseline_value), after = show_metric(t.metric, t.plan_value);
     rows.push_back(
         {escape_html(t.metric) + (after.unit.empty() ? "" : ", " + after.unit), before.value, after.value,
          readable_number(t.weight), readable_number(t.scale), readable_number(t.baseline_contribution),
@@ -101,12 +100,12 @@ std::string limits_table(const SearchSection& search) {
   for (std::size_t i = 0; i < search.plan_limits.size() && i < search.baseline_limits.size(); ++i) {
     const LimitCheck& before = search.baseline_limits[i];
     const LimitCheck& after = search.plan_limits[i];
-    const std::string unit = show_metric(after.metric, after.unit, after.limit).unit;
+    const std::string unit = show_metric(after.metric, after.limit).unit;
     rows.push_back({escape_html(after.metric) + (unit.empty() ? "" : ", " + unit) +
                         (after.scenario.empty() ? "" : " <small>(" + escape_html(after.scenario) + ")</small>"),
-                    (after.is_max ? "≤ " : "≥ ") + show_metric(after.metric, after.unit, after.limit).value,
-                    verdict(before) + show_metric(before.metric, before.unit, before.value).value,
-                    verdict(after) + show_metric(after.metric, after.unit, after.value).value,
+                    (after.is_max ? "≤ " : "≥ ") + show_metric(after.metric, after.limit).value,
+                    verdict(before) + show_metric(before.metric, before.value).value,
+                    verdict(after) + show_metric(after.metric, after.value).value,
                     difference(before.value, after.value, after.is_max, !after.pass)});
   }
   if (rows.empty()) return {};

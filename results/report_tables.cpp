@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kShortCell = 14;  // bytes: a number with its unit
 
-std::string cell(const std::string& name, const std::string& unit, double value) {
-  const Shown shown = show_metric(name, unit, value);
+std::string cell(const std::string& name, double value) {
+  const Shown shown = show_metric(name, value);
   std::string text = shown.value + (shown.unit.empty() || shown.value == "–" ? "" : "\u00a0" + shown.unit);
   if (!shown.aside.empty()) text += " <small>(" + shown.aside + ")</small>";
   return text;
@@ -30,11 +30,12 @@ std::string when(const ReportData& data, const std::string& scenario, double tim
 std::string phase_cell(const std::string& phase) { return phase.empty() ? "–" : escape_html(readable_name(phase)); }
 
 /// Metrics of one kind of element: a row an element, a column a quantity.
-std::string element_table(const ReportData& data, const char* title, const std::vector<std::string>& kinds) {
+std::string element_table(const ReportData& data, const char* title, const std::vector<MetricElement>& kinds,
+                          const std::string& noun = {}) {
   std::vector<const MetricDefinition*> columns;
   std::vector<std::string> elements;
   for (const MetricDefinition& d : metric_catalogue()) {
-    if (d.element.empty() || std::find(kinds.begin(), kinds.end(), d.element) == kinds.end()) continue;
+    if (std::find(kinds.begin(), kinds.end(), d.element) == kinds.end() || d.kind != noun) continue;
     bool used = false;
     for (const Metric& m : data.metrics.items) {
       if (metric_definition(m.name) != &d) continue;
@@ -55,7 +56,7 @@ std::string element_table(const ReportData& data, const char* title, const std::
     rows.push_back({escape_html(readable_name(element))});
     for (const MetricDefinition* d : columns) {
       const std::string name = d->name.substr(0, d->name.find('%')) + element;
-      const Shown shown = show_metric(name, d->unit, data.metrics.value(name));
+      const Shown shown = show_metric(name, data.metrics.value(name));
       rows.back().push_back(shown.value + (shown.aside.empty() ? "" : "<br><small>" + shown.aside + "</small>"));
     }
   }
@@ -71,31 +72,6 @@ std::string event_time(double time) {
 std::string time_in(const ReportData& data, const std::string& scenario, double seconds) {
   const bool here = scenario.empty() || !data.search || data.search->shown == scenario;
   return here ? event_time(seconds) : clock_time(seconds);
-}
-
-Shown show_metric(const std::string& name, const std::string& unit, double value) {
-  if (!std::isfinite(value)) return {"–", unit == "1" ? "" : unit, ""};
-  const auto minutes = [&] { return fixed_number(60.0 * value, 2) + " m/min"; };
-  if (unit == "kN")
-    return {fixed_number(value, std::abs(value) < 100.0 ? 1 : 0), unit,
-            fixed_number(value / kStandardGravity, std::abs(value) < 1000.0 ? 2 : 1) + " t"};
-  if (unit == "m/s")
-    return {fixed_number(value, 3), unit, name.starts_with("winch") || name.starts_with("tagline") ? minutes() : ""};
-  if (unit == "s") return {fixed_number(value, 1), unit, value >= 60.0 ? clock_time(value) : ""};
-  if (unit == "m" || unit == "deg") return {fixed_number(value, 2), unit == "deg" ? "°" : unit, ""};
-  if (unit == "1") {
-    if (name.starts_with("tagline_saturated"))
-      return {fixed_number(value, 3), "", fixed_number(100.0 * value, 1) + " %"};
-    return {value == std::round(value) ? fixed_number(value, 0) : fixed_number(value, 3), "", ""};
-  }
-  return {readable_number(value), unit, ""};
-}
-
-std::string clock_time(double seconds) {
-  if (!std::isfinite(seconds)) return "–";
-  const long s = std::lround(seconds);
-  if (s < 3600) return fmt::format("{}:{:02d}", s / 60, s % 60);
-  return fmt::format("{}:{:02d}:{:02d}", s / 3600, s / 60 % 60, s % 60);
 }
 
 std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
@@ -138,9 +114,8 @@ std::string limits_part(const ReportData& data) {
                                    : "<span class=\"warn\">! warning</span>";
     const std::string use = limit_use_text(c);
     rows.push_back(
-        {escape_html(c.metric), cell(c.metric, c.unit, c.value),
-         (c.is_max ? "≤\u00a0" : "≥\u00a0") + cell(c.metric, c.unit, c.limit),
-         show_metric(c.metric, c.unit, c.margin).value + (use.empty() ? "" : " <small>(" + use + ")</small>"), verdict,
+        {escape_html(c.metric), cell(c.metric, c.value), (c.is_max ? "≤\u00a0" : "≥\u00a0") + cell(c.metric, c.limit),
+         show_metric(c.metric, c.margin).value + (use.empty() ? "" : " <small>(" + use + ")</small>"), verdict,
          when(data, c.scenario, c.time), phase_cell(c.phase), c.source.empty() ? "case" : escape_html(c.source)});
   }
   return html_table({"criterion", "value", "limit", "margin", "verdict", "reached at", "phase", "source of the limit"},
@@ -151,19 +126,21 @@ std::string metrics_part(const ReportData& data) {
   std::vector<std::vector<std::string>> rows;
   for (const Metric& m : data.metrics.items) {
     const MetricDefinition* d = metric_definition(m.name);
-    if (!d || !d->element.empty()) continue;
-    rows.push_back({escape_html(m.name), cell(m.name, m.unit, m.value), when(data, m.scenario, m.time), phase_cell(m.phase),
+    if (!d || d->element != MetricElement::none) continue;
+    rows.push_back({escape_html(m.name), cell(m.name, m.value), when(data, m.scenario, m.time), phase_cell(m.phase),
                     escape_html(d->description)});
   }
   std::string out =
       "<h3>Over the operation</h3>" + html_table({"metric", "value", "reached at", "phase", "meaning"}, rows, -1);
-  out += element_table(data, "Motion of the load by phase", {"phase"});
-  out += element_table(data, "Wires", {"wire", "hoist wire", "hoist wire or crane", "wire or crane"});
-  out += element_table(data, "Cranes", {"crane", "crane vessel"});
-  out += element_table(data, "Winches", {"winch"});
-  out += element_table(data, "Taglines", {"tagline"});
-  out += element_table(data, "Mooring lines", {"mooring"});
-  out += element_table(data, "Clearances", {"clearance"});
+  out += element_table(data, "Motion of the load by phase", {MetricElement::phase});
+  out += element_table(data, "Wires",
+                       {MetricElement::wire, MetricElement::hoist_wire, MetricElement::hoist_wire_or_crane,
+                        MetricElement::wire_or_crane});
+  out += element_table(data, "Cranes", {MetricElement::crane, MetricElement::crane_vessel});
+  out += element_table(data, "Winches", {MetricElement::winch});
+  for_each_element_kind(
+      [&](const auto& kind) { out += element_table(data, kind.title, {MetricElement::entry}, kind.noun); });
+  out += element_table(data, "Clearances", {MetricElement::clearance});
   return out;
 }
 

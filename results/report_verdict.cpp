@@ -28,8 +28,8 @@ const char* stage_class(PhaseSpec::Stage stage) {
   return "landed";
 }
 
-std::string value_with_unit(const std::string& name, const std::string& unit, double value) {
-  const Shown shown = show_metric(name, unit, value);
+std::string value_with_unit(const std::string& name, double value) {
+  const Shown shown = show_metric(name, value);
   return shown.value + (shown.unit.empty() ? "" : " " + shown.unit);
 }
 
@@ -41,7 +41,8 @@ std::string governing_sentence(const ReportData& data) {
   const std::string key = "<code>" + escape_html(governing->metric) + "</code>";
   const std::string name = definition ? "<b>" + escape_html(definition->description) + "</b> (" + key + ")" : key;
   if (!std::isfinite(governing->value))
-    return fmt::format("<p>Governing limit: {}. It has no value in this run, so it cannot be shown to be kept.</p>", name);
+    return fmt::format("<p>Governing limit: {}. It has no value in this run, so it cannot be shown to be kept.</p>",
+                       name);
   std::string when;
   if (!governing->phase.empty()) when += " in " + escape_html(readable_name(governing->phase));
   if (!governing->scenario.empty()) when += " in scenario " + escape_html(governing->scenario);
@@ -49,9 +50,8 @@ std::string governing_sentence(const ReportData& data) {
   std::string share = limit_use_text(*governing);
   if (!share.empty()) share = ": " + share;
   return fmt::format("<p>Governing limit: {}: <b>{}</b>, {} {}{}{}.</p>", name,
-                     value_with_unit(governing->metric, governing->unit, governing->value),
-                     governing->is_max ? "limit" : "at least",
-                     value_with_unit(governing->metric, governing->unit, governing->limit), share, when);
+                     value_with_unit(governing->metric, governing->value), governing->is_max ? "limit" : "at least",
+                     value_with_unit(governing->metric, governing->limit), share, when);
 }
 
 /// How much the verdict rests on: one seed, the scenarios of a search, fresh conditions.
@@ -86,7 +86,7 @@ std::string tile(const ReportData& data, const std::string& metric, const std::s
   const Metric* m = data.metrics.find(metric);
   if (!m) return {};
   const auto text = [&](double v) {
-    const Shown shown = show_metric(m->name, m->unit, v);
+    const Shown shown = show_metric(m->name, v);
     if (!operator_unit || shown.aside.empty()) return std::pair(shown.value, shown.unit);
     const std::size_t space = shown.aside.find(' ');
     return std::pair(shown.aside.substr(0, space), space == std::string::npos ? "" : shown.aside.substr(space + 1));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/lifting/contact.h"
+#include "sim/run_channels.h"
 #include "sim/samples.h"
 #include "sim/spatial/constants.h"
 
@@ -24,7 +26,7 @@ RunView::RunView(const Specification& specification, const Trajectory& trajector
     bool free = true;
     for (const ContactSpec& contact : specification_.contacts) {
       if (contact.role == ContactSpec::Role::other) continue;
-      const auto force = pose.values.find(contact.name + ".force");
+      const auto force = pose.values.find(contact_channels::force.of(contact));
       if (force != pose.values.end() && force->second > kOpenContact) free = false;
     }
     hangs_.push_back(free);
@@ -38,7 +40,7 @@ RunView::RunView(const Specification& specification, const Trajectory& trajector
       const DriveSpec& drive = specification_.drives[d];
       // A tow moves the barge, not the load's static path.
       if (drive.kind == DriveSpec::Kind::tow || std::abs(to[d] - from[d]) < 1e-9) continue;
-      const auto position = series(drive.name + ".position");
+      const auto position = series(drive_channels::position.of(drive));
       if (!position.empty()) moving_[p].push_back({position, from[d], to[d]});
     }
   }
@@ -138,12 +140,12 @@ double RunView::static_value(std::size_t pose, const std::string& name) const {
 
 bool RunView::hangs(std::size_t pose) const { return pose < hangs_.size() && hangs_[pose]; }
 
+StaticPath RunView::static_path(std::size_t phase, const std::string& name) const {
+  return {hangs(phase) ? static_value(phase, name) : kNaN, hangs(phase + 1) ? static_value(phase + 1, name) : kNaN};
+}
+
 double RunView::static_at(std::size_t phase, double t, const std::string& name) const {
-  const double from = hangs(phase) ? static_value(phase, name) : kNaN;
-  const double to = hangs(phase + 1) ? static_value(phase + 1, name) : kNaN;
-  if (std::isnan(from)) return to;
-  if (std::isnan(to)) return from;
-  return from + (to - from) * progress(phase, t);
+  return static_path(phase, name).at(progress(phase, t));
 }
 
 double RunView::planned_at(std::size_t phase, double t, const std::string& name) const {

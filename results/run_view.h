@@ -26,6 +26,13 @@ struct Peak {
   }
 };
 
+/// A static value on the way from one pose to the next. Without a value at one end it is that of the other.
+struct StaticPath {
+  double from = std::numeric_limits<double>::quiet_NaN(), to = std::numeric_limits<double>::quiet_NaN();
+  /// By how far the phase has come, 0 to 1.
+  double at(double progress) const { return from != from ? to : to != to ? from : from + (to - from) * progress; }
+};
+
 class RunView {
  public:
   using Stage = PhaseSpec::Stage;
@@ -74,6 +81,8 @@ class RunView {
   double static_value(std::size_t pose, const std::string& name) const;
   /// Static value during a phase at time t (s) for a hanging load, see metrics.h; NaN if there is none.
   double static_at(std::size_t phase, double t, const std::string& name) const;
+  /// The same over the whole phase, for many instants.
+  StaticPath static_path(std::size_t phase, const std::string& name) const;
   /// True if the load hangs in static pose `pose`: it rests on no pickup and no target.
   bool hangs(std::size_t pose) const;
   /// Static value on the way from one pose to the next, resting or not; NaN if there is none.

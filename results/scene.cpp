@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/scene_builder.h"
 #include "sim/crane_parts.h"
 #include "sim/hull/mesh_file.h"
-#include "sim/lifting/catenary.h"
 
 namespace stillhook {
 namespace {
@@ -15,12 +15,6 @@ constexpr std::size_t kMostTriangles = 1'000'000;
 constexpr double kSlenderness = 0.02;
 /// Points of a body closer together than this (m) are one.
 constexpr double kSamePoint = 0.5;
-
-int body_index(const Specification& s, const std::string& name) {
-  for (std::size_t i = 0; i < s.bodies.size(); ++i)
-    if (s.bodies[i].name == name) return static_cast<int>(i);
-  return kSceneWorld;
-}
 
 Mesh plain_box(const Vector3& low, const Vector3& high) {
   const Vector3 size = high - low;
@@ -156,10 +150,10 @@ SceneBody scene_body(const Specification& s, const BodySpec& body) {
   out.floats = !out.mesh.triangles.empty();
   const std::vector<std::string> cranes = crane_vessels(s);
   const bool is_crane = std::find(cranes.begin(), cranes.end(), body.name) != cranes.end();
-  out.kind = body.name == s.operation.load    ? SceneBody::Kind::load
-             : is_crane                       ? SceneBody::Kind::crane
-             : out.floats                     ? SceneBody::Kind::vessel
-                                              : SceneBody::Kind::member;
+  out.kind = body.name == s.operation.load ? SceneBody::Kind::load
+             : is_crane                    ? SceneBody::Kind::crane
+             : out.floats                  ? SceneBody::Kind::vessel
+                                           : SceneBody::Kind::member;
   if (body.hull.shape == HullSpec::Shape::mesh && out.floats && out.kind == SceneBody::Kind::load)
     out.envelope = clearance_box(s, body.name);
   if (out.mesh.triangles.empty()) out.mesh = known_box(s, body.name);
@@ -168,78 +162,15 @@ SceneBody scene_body(const Specification& s, const BodySpec& body) {
   return out;
 }
 
-SceneLine::Kind kind_of(WireSpec::Role role) {
-  switch (role) {
-    case WireSpec::Role::hoist:
-      return SceneLine::Kind::hoist;
-    case WireSpec::Role::luffing:
-      return SceneLine::Kind::luffing;
-    case WireSpec::Role::stay:
-      return SceneLine::Kind::stay;
-    case WireSpec::Role::sling:
-      return SceneLine::Kind::sling;
-    case WireSpec::Role::other:
-      break;
-  }
-  return SceneLine::Kind::other;
-}
-
-double largest_static(const Trajectory& trajectory, const std::string& channel) {
-  double largest = 0.0;
-  for (const StaticPose& pose : trajectory.static_poses)
-    if (const auto found = pose.values.find(channel); found != pose.values.end() && std::isfinite(found->second))
-      largest = std::max(largest, found->second);
-  return largest;
-}
-
-double phase_start(const Trajectory& trajectory, const std::string& phase) {
-  if (phase.empty()) return trajectory.phases.empty() ? 0.0 : trajectory.phases.front().start;
-  for (const PhaseRecord& p : trajectory.phases)
-    if (p.name == phase) return p.start;
-  return std::numeric_limits<double>::infinity();  // never reached in this run
-}
-
-SceneMooring scene_mooring(const Specification& s, const Trajectory& trajectory, const MooringSpec& spec) {
-  SceneMooring m;
-  m.name = spec.name;
-  m.body = body_index(s, spec.body);
-  m.fairlead = spec.fairlead;
-  m.tow = spec.tow;
-  m.tow_direction = spec.tow_direction;
-  Pose X_WB;
-  if (!trajectory.static_poses.empty() && m.body >= 0 &&
-      static_cast<std::size_t>(m.body) < trajectory.static_poses.front().bodies.size())
-    X_WB = trajectory.static_poses.front().bodies[static_cast<std::size_t>(m.body)];
-  const Vector3 fairlead = X_WB * spec.fairlead;
-  const Vector3 outward(std::cos(spec.azimuth), std::sin(spec.azimuth), 0.0);
-  m.anchor = spec.anchor.value_or(Vector3(fairlead + spec.anchor_distance * outward));
-  if (spec.type != MooringSpec::Type::catenary) return m;
-  // The drawing knows lines that come up from the bottom; what hangs free or is buoyant it draws straight.
-  const bool from_the_bottom = spec.weight > 0.0 && !(spec.anchor && spec.anchor->z() > -s.sea.depth + 0.05);
-  if (from_the_bottom) m.weight = spec.weight;
-  if (spec.anchor) return m;
-  const CatenaryLine line{spec.length, spec.weight, spec.axial_stiffness, spec.seabed_friction, true};
-  m.anchor = fairlead + catenary_distance(line, spec.pretension, fairlead.z() + s.sea.depth) * outward;
-  m.anchor.z() = -s.sea.depth;
-  return m;
-}
-
 }  // namespace
 
 Scene build_scene(const Specification& s, const Trajectory& trajectory) {
   Scene scene;
   for (const BodySpec& body : s.bodies) scene.bodies.push_back(scene_body(s, body));
-  for (const WireSpec& w : s.wires)
-    scene.lines.push_back({w.name, kind_of(w.role), body_index(s, w.from), body_index(s, w.to), w.point_from,
-                           w.point_to, largest_static(trajectory, w.name + ".tension"), phase_start(trajectory, "")});
-  for (const TaglineSpec& t : s.taglines)
-    if (t.active)
-      scene.lines.push_back({t.name, SceneLine::Kind::tagline, body_index(s, t.from), body_index(s, t.to), t.point_from,
-                             t.point_to, t.tension_max, phase_start(trajectory, t.active_from)});
-  for (const MooringSpec& m : s.moorings) scene.moorings.push_back(scene_mooring(s, trajectory, m));
-  for (const ContactSpec& c : s.contacts)
-    scene.surfaces.push_back(
-        {c.name, c.role, body_index(s, c.surface_body), c.surface_centre, c.surface_length, c.surface_breadth});
+  SceneBuilder builder(s, trajectory, scene);
+  for_each_element_kind([&](const auto& kind) {
+    for (const auto& entry : s.*kind.entries) add_shapes(entry, builder);
+  });
   return scene;
 }
 

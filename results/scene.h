@@ -4,6 +4,7 @@
 // from its joint to the points where wires are fixed.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ struct SceneLine {
   Vector3 point_from = Vector3::Zero(), point_to = Vector3::Zero();  // m, in B of each
   double reference = 0.0;   // N, largest static tension of a wire, limit of a tagline; 0 if there is none
   double shown_from = 0.0;  // s
+  std::string tension;      // the channel of its tension
 };
 
 struct SceneMooring {
@@ -60,11 +62,21 @@ struct SceneSurface {
   double length = 0.0, breadth = 0.0;  // m, along x and y of B
 };
 
+/// A force that is drawn as an arrow: its channels in W, N, at a point of a body.
+struct SceneArrow {
+  std::string name;
+  int body = kSceneWorld;
+  Vector3 point = Vector3::Zero();   // m, in B
+  std::array<std::string, 3> force;  // channels
+  double reference = 0.0;            // N: the force that is drawn at full length
+};
+
 struct Scene {
   std::vector<SceneBody> bodies;  // in the order of the specification
   std::vector<SceneLine> lines;
   std::vector<SceneMooring> moorings;
   std::vector<SceneSurface> surfaces;
+  std::vector<SceneArrow> arrows;
 };
 
 /// Reads the hull meshes again; one that is missing or has more than a million triangles is drawn from its clearances

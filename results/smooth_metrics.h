@@ -30,7 +30,7 @@ struct SmoothOptions {
 std::optional<double> smooth_metric(const Specification& specification, const Trajectory& run, const std::string& name,
                                     const SmoothOptions& options);
 
-/// The channels that a metric and its smooth counterpart are computed from (metric_channels.cpp).
+/// The channels that a metric and its smooth counterpart are computed from.
 std::vector<std::string> channels_of_metric(const Specification& specification, const std::string& name);
 
 }  // namespace stillhook

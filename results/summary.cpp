@@ -16,8 +16,10 @@ Json metrics_json(const Metrics& metrics) {
   for (const Metric& m : metrics.items)
     all[m.name] = {
         {"value", json_number(m.value)}, {"unit", m.unit}, {"time", json_number(m.time)}, {"phase", m.phase}};
-  for (const Metric& m : metrics.items)
+  for (const Metric& m : metrics.items) {
     if (!m.scenario.empty()) all[m.name]["scenario"] = m.scenario;
+    for (const PhaseValue& here : m.by_phase) all[m.name]["by_phase"][here.phase] = json_number(here.value);
+  }
   return all;
 }
 

@@ -19,9 +19,18 @@ RunStatus status_of(const std::string& name) {
 
 Metrics metrics_of(const Json& document) {
   Metrics metrics;
-  for (const auto& [name, m] : document.at("metrics").items())
-    metrics.items.push_back({name, m.at("unit").get<std::string>(), number_of(m.at("value")), number_of(m.at("time")),
-                             m.at("phase").get<std::string>(), m.value("scenario", std::string())});
+  for (const auto& [name, m] : document.at("metrics").items()) {
+    Metric metric{name,
+                  m.at("unit").get<std::string>(),
+                  number_of(m.at("value")),
+                  number_of(m.at("time")),
+                  m.at("phase").get<std::string>(),
+                  m.value("scenario", std::string()),
+                  {}};
+    if (m.contains("by_phase"))  // older runs have none
+      for (const auto& [phase, value] : m.at("by_phase").items()) metric.by_phase.push_back({phase, number_of(value)});
+    metrics.items.push_back(std::move(metric));
+  }
   return metrics;
 }
 

@@ -8,6 +8,7 @@
 #include "sim/hull/hydrostatics.h"
 #include "sim/lifting/wire.h"
 #include "sim/model_builder.h"
+#include "sim/lifting/wire.h"
 #include "sim/multibody/relaxation.h"
 #include "sim/number_text.h"
 #include "sim/start_pose.h"
@@ -40,7 +41,7 @@ void ModelBuilder::begin_at_other() {
     const WireSpec& w = spec().wires[i];
     if (!w.hold_joint.empty()) continue;  // the joint stands where the other's does
     const bool by_pose = by_slack(i) && lengths[i] != model_.initial_lengths_[i];
-    const double length = by_pose ? build_.end_distance(w) + w.slack : lengths[i];
+    const double length = by_pose ? end_distance(w, site_) + w.slack : lengths[i];
     taken_over_ = length == model_.initial_lengths_[i] && !(by_pose && w.slack < 0.0);
   }
   taken_over_ = taken_over_ && same_statics(system(), other_->system(), there);
@@ -127,7 +128,7 @@ void ModelBuilder::find_equilibrium() {
   bool taut = false;
   for (const std::size_t i : loose) {
     const WireSpec& w = spec().wires[i];
-    model_.initial_lengths_[i] = build_.end_distance(w) + w.slack;
+    model_.initial_lengths_[i] = end_distance(w, site_) + w.slack;
     taut = taut || w.slack < 0.0;
   }
   rebuild_wires();

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/element_site.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/rao_motion.h"
+#include "sim/lifting/wire.h"
 #include "sim/model_builder.h"
 #include "sim/multibody/assembly.h"
 #include "sim/multibody/joint_drive.h"
@@ -68,9 +68,8 @@ void ModelBuilder::place_bodies() {
 }
 
 void ModelBuilder::add_own_elements() {
-  const ElementSite site(model_);
   for (const OwnElement& make : spec().own_elements) {
-    auto element = make(site);
+    auto element = make(site_);
     if (!element) throw SpecificationError("own element", "", "was not made: the program returned none");
     if (model_.element_index(element->name()) >= 0)
       throw SpecificationError(element->name(), "", "is the name of two elements");
@@ -131,7 +130,7 @@ void ModelBuilder::hold_to_the_sea() {
 // Unstretched lengths where the specification leaves them to the initial pose.
 void ModelBuilder::choose_lengths() {
   for (const WireSpec& w : spec().wires) {
-    const double distance = build_.end_distance(w);
+    const double distance = end_distance(w, site_);
     if (distance < 1e-6) throw SpecificationError("wires." + w.name, "", "its ends coincide at the initial pose");
     double length = w.unstretched_length > 0.0 ? w.unstretched_length : distance + w.slack;
     if (length <= 0.0)
@@ -145,7 +144,7 @@ void ModelBuilder::choose_lengths() {
 
 void ModelBuilder::rebuild_wires() {
   for (std::size_t i = 0; i < spec().wires.size(); ++i)
-    system().elements[first_wire_ + i] = build_.wire(spec().wires[i], model_.initial_lengths_[i]);
+    system().elements[first_wire_ + i] = make_element(spec().wires[i], site_);
 }
 
 void ModelBuilder::add_elements() {
@@ -157,19 +156,15 @@ void ModelBuilder::add_elements() {
       elements.push_back(build_hydrostatics(b, static_cast<int>(i), model_.waves_, spec().sea));
   }
   first_wire_ = elements.size();
-  for (std::size_t i = 0; i < spec().wires.size(); ++i)
-    elements.push_back(build_.wire(spec().wires[i], model_.initial_lengths_[i]));
-  for (const TaglineSpec& t : spec().taglines) elements.push_back(build_.tagline(t));
-  for (const MooringSpec& m : spec().moorings) elements.push_back(build_.mooring(m));
-  for (const RestoringSpec& r : spec().restoring) elements.push_back(build_.restoring(r));
-  for (const ContactSpec& c : spec().contacts) elements.push_back(build_.contact(c));
-  for (const BallastSpec& b : spec().ballast) elements.push_back(build_.ballast(b));
+  for_each_element_kind([&](const auto& kind) {
+    for (const auto& entry : spec().*kind.entries) elements.push_back(make_element(entry, site_));
+  });
   for (std::size_t j = 0; j < spec().joints.size(); ++j) {
     const JointSpec& joint = spec().joints[j];
     if (joint.stiffness > 0.0 || joint.damping > 0.0 || !joint.drive.empty())
       elements.push_back(std::make_unique<const JointDrive>(joint.name, system().joints[j], joint.stiffness,
                                                             joint.damping, joint.rest,
-                                                            build_.drive_or_none(joint.drive)));
+                                                            site_.drive_or_none(joint.drive)));
   }
   add_own_elements();
   system().finish();

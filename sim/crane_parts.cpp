@@ -78,6 +78,13 @@ std::vector<std::string> crane_bodies(const Specification& s) {
   return names;
 }
 
+std::vector<std::string> hoist_wires(const Specification& s) {
+  std::vector<std::string> names;
+  for (const WireSpec& wire : s.wires)
+    if (wire.role == WireSpec::Role::hoist) names.push_back(wire.name);
+  return names;
+}
+
 std::vector<std::string> hoist_wires_of(const Specification& s, const std::string& crane) {
   std::vector<std::string> names;
   for (const WireSpec& wire : s.wires)

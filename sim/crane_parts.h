@@ -25,6 +25,9 @@ std::vector<std::string> operation_vessels(const Specification& s);
 /// Booms and vessels together, each once: whatever a hook load can be asked of.
 std::vector<std::string> crane_bodies(const Specification& s);
 
+/// The names of all hoist wires, in the order of the case.
+std::vector<std::string> hoist_wires(const Specification& s);
+
 /// The hoist wires that hang on a boom, or on any boom of a vessel.
 std::vector<std::string> hoist_wires_of(const Specification& s, const std::string& crane);
 

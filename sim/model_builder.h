@@ -3,7 +3,7 @@
 // (build_hull_forces.cpp).
 #pragma once
 
-#include "sim/element_builder.h"
+#include "sim/element_site.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/model.h"
 #include "sim/multibody/equilibrium.h"
@@ -60,7 +60,7 @@ class ModelBuilder {
   const Model* other_;
   bool taken_over_ = false;  // the other's equilibrium, so far
   Model model_;
-  ElementBuilder build_{model_};
+  ElementSite site_{model_};
   std::vector<double> given_lengths_;  // of the wires, as the given pose has them
   SystemState given_;                  // with the joints closed
   std::size_t first_wire_ = 0;

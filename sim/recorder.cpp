@@ -5,24 +5,25 @@
 #include <limits>
 
 #include "sim/drive_unit.h"
+#include "sim/run_channels.h"
 
 namespace stillhook {
 
 namespace {
-constexpr int kOfBody = 12, kOfDrive = 2, kOfJoint = 7;  // channels of each
-}
+// Channels of each.
+constexpr int kOfBody = static_cast<int>(body_channels::all.size());
+constexpr int kOfDrive = 2;
+constexpr int kOfJoint = 1 + static_cast<int>(joint_channels::loads.size());
+}  // namespace
 
 ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
   const MultibodySystem& system = model.system();
-  for (const RigidBody& b : system.bodies) {
-    const auto add = [&](const char* quantity, const char* unit, const char* what) {
-      channels_.push_back({b.name + "." + quantity, unit, std::string(what) + " of " + b.name});
-    };
-    for (const char* axis : {"x", "y", "z"}) add(axis, "m", "position of the origin");
-    for (const char* angle : {"roll", "pitch", "yaw"}) add(angle, "rad", "ZYX Euler angle");
-    for (const char* axis : {"vx", "vy", "vz"}) add(axis, "m/s", "velocity of the origin");
-    for (const char* axis : {"wx", "wy", "wz"}) add(axis, "rad/s", "angular velocity in body axes");
-  }
+  const auto add = [&](const Channel& channel) { channels_.push_back(channel); };
+  for (const RigidBody& b : system.bodies)
+    for (const auto& kind : body_channels::all) {
+      add(kind.channel(b.name));
+      channels_.back().description += " of " + b.name;
+    }
   for (const auto& element : system.elements) {
     element_offset_.push_back(static_cast<int>(channels_.size()));
     for (Channel& c : element->channels()) channels_.push_back(std::move(c));
@@ -31,24 +32,19 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
   drive_offset_ = static_cast<int>(channels_.size());
   for (const DriveSpec& d : model.specification().drives) {
     const DriveMotion motion = drive_motion(model.specification(), d);
-    channels_.push_back({d.name + ".position", position_unit(motion),
-                         d.kind == DriveSpec::Kind::winch ? "length hauled in" : "position of the drive"});
-    channels_.push_back({d.name + ".rate", rate_unit(motion), "rate of the drive"});
+    add({drive_channels::position.of(d), position_unit(motion),
+         d.kind == DriveSpec::Kind::winch ? "length hauled in" : drive_channels::position.description});
+    add({drive_channels::rate.of(d), rate_unit(motion), drive_channels::rate.description});
   }
   joint_offset_ = static_cast<int>(channels_.size());
   for (const Joint& j : system.joints) {
-    if (j.type == JointSpec::Type::prismatic)
-      channels_.push_back({j.name + ".slide", "m", "travel along the axis from the initial pose"});
-    else
-      channels_.push_back({j.name + ".angle", "rad", "angle about the axis from the initial pose"});
-    for (const char* axis : {"x", "y", "z"})
-      channels_.push_back({j.name + ".force_" + axis, "N", "force on the child, world axes"});
-    for (const char* axis : {"x", "y", "z"})
-      channels_.push_back({j.name + ".moment_" + axis, "N m", "moment on the child about the joint, world axes"});
+    const bool slides = j.type == JointSpec::Type::prismatic;
+    add((slides ? joint_channels::slide : joint_channels::angle).channel(j.name));
+    for (const auto& kind : joint_channels::loads) add(kind.channel(j.name));
   }
   rest_offset_ = static_cast<int>(channels_.size());
-  channels_.push_back({"sea.elevation", "m", "undisturbed wave elevation at the world origin"});
-  channels_.push_back({"phase", "1", "index of the phase of the operation"});
+  add(sea_channels::elevation_kind.channel("sea"));
+  add({sea_channels::phase, "1", "index of the phase of the operation"});
   values_.assign(channels_.size(), 0.0);
 }
 

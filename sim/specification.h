@@ -5,11 +5,13 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "sim/element_site.h"
+#include "sim/element_kind.h"
 #include "sim/error.h"
 #include "sim/hull/self_check_tolerances.h"
+#include "sim/own_element.h"
 #include "sim/rao_spec.h"
 #include "sim/spatial/pose.h"
 
@@ -160,9 +162,8 @@ struct DriveSpec {
   double acceleration_max = 0.0;  // per s2; 0 = unlimited
 };
 
-struct WireSpec {
+struct WireSpec : ElementEntry<WireSpec> {
   enum class Role { other, hoist, luffing, stay, sling };
-  std::string name;
   Role role = Role::other;
   std::string from, to;                    // bodies; "from" carries the upper end or the sheave
   Vector3 point_from = Vector3::Zero(), point_to = Vector3::Zero();  // m, in B of each
@@ -188,8 +189,7 @@ struct GainPointSpec {
   bool operator==(const GainPointSpec&) const = default;
 };
 
-struct TaglineSpec {
-  std::string name;
+struct TaglineSpec : ElementEntry<TaglineSpec> {
   std::string from, to;                    // winch body, controlled body
   Vector3 point_from = Vector3::Zero(), point_to = Vector3::Zero();  // m, in B of each
   std::string wire;                        // the hoist wire whose angle is controlled
@@ -206,9 +206,8 @@ struct TaglineSpec {
   std::string active_from;                 // phase with which the line is connected; empty = always
 };
 
-struct MooringSpec {
+struct MooringSpec : ElementEntry<MooringSpec> {
   enum class Type { catenary, linear };
-  std::string name;
   Type type = Type::catenary;
   std::string body;
   Vector3 fairlead = Vector3::Zero();      // m, in B
@@ -226,8 +225,7 @@ struct MooringSpec {
 };
 
 /// A linear spring and damper in all six motions between a body and the world, about one point of the body.
-struct RestoringSpec {
-  std::string name;
+struct RestoringSpec : ElementEntry<RestoringSpec> {
   std::string body;
   Vector3 point = Vector3::Zero();          // m, in B
   std::optional<Vector3> rest_point;        // m, in W: where the point is at rest; absent: at the initial pose
@@ -239,8 +237,7 @@ struct RestoringSpec {
 };
 
 /// Corner points of one body against a horizontal rectangle fixed to another.
-struct ContactSpec {
-  std::string name;
+struct ContactSpec : ElementEntry<ContactSpec> {
   std::string body;                        // carries the points
   std::vector<Vector3> points;             // m, in B
   std::string surface_body;                // carries the rectangle, may be "world"
@@ -256,8 +253,7 @@ struct ContactSpec {
 };
 
 /// A mass of water moved from one tank to another; its weight counts, its inertia does not.
-struct BallastSpec {
-  std::string name;
+struct BallastSpec : ElementEntry<BallastSpec> {
   std::string body;
   double mass = 0.0;                       // kg, moved when the drive stands at 1
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  // m, in B
@@ -376,5 +372,23 @@ struct Specification {
   SolverSpec solver;
   std::vector<OwnElement> own_elements;  // of a program that embeds the library; never of a case file
 };
+
+// ---- kinds of force elements ----------------------------------------------------------------------------------
+
+/// Every kind that a case can hold, in the order in which they join a model (element_kind.h says what each brings).
+inline constexpr std::tuple kElementKinds = {
+    ElementKind<WireSpec>{"wires", "wire", "Wires", &Specification::wires, &WireSpec::winch},
+    ElementKind<TaglineSpec>{"taglines", "tagline", "Taglines", &Specification::taglines},
+    ElementKind<MooringSpec>{"moorings", "mooring", "Mooring lines", &Specification::moorings, &MooringSpec::tow},
+    ElementKind<RestoringSpec>{"restoring", "spring", "Linear springs to the world", &Specification::restoring},
+    ElementKind<ContactSpec>{"contacts", "contact", "Contacts", &Specification::contacts},
+    ElementKind<BallastSpec>{"ballast", "ballast", "Ballast transfers", &Specification::ballast, &BallastSpec::drive},
+};
+
+/// Calls visit(kind) for each of them.
+template <class Visit>
+void for_each_element_kind(Visit visit) {
+  std::apply([&](const auto&... kind) { (visit(kind), ...); }, kElementKinds);
+}
 
 }  // namespace stillhook

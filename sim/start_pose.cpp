@@ -45,7 +45,7 @@ double smallest_gap(const Contact& contact, const SystemState& at) {
   contact.start(now, {memory, scratch});
   contact.measure(now, {memory, scratch}, values);
   for (std::size_t i = 0; i < channels.size(); ++i)
-    if (channels[i].name == contact.name() + ".gap") return values[i];
+    if (channels[i].name == contact_channels::gap.of(contact.name())) return values[i];
   return kNaN;
 }
 

@@ -1,5 +1,6 @@
 #include "sim/statics.h"
 
+#include "sim/lifting/wire.h"
 #include "sim/multibody/drive_path.h"
 #include "sim/static_goals.h"
 
@@ -19,7 +20,7 @@ double coordinate_value(const Model& model, const SystemState& state, const Coor
   }
   if (!c.wire.empty()) {
     const auto values = channel_values(model, state);
-    const auto it = values.find(c.wire + ".tension");
+    const auto it = values.find(wire_channels::tension.of(c.wire));
     if (it == values.end()) throw SpecificationError("coordinate", "wire", "there is no wire '" + c.wire + "'");
     return it->second;
   }

@@ -37,7 +37,7 @@ bool hangs(const Model& model, const SystemState& state) {
   const StaticPose pose = static_pose(model, state, "");
   for (const ContactSpec& contact : model.specification().contacts)
     if (contact.body == model.specification().operation.load) {
-      const auto force = pose.values.find(contact.name + ".force");
+      const auto force = pose.values.find(contact_channels::force.of(contact));
       if (force != pose.values.end() && force->second > 0.0) return false;
     }
   return true;

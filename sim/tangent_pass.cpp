@@ -1,3 +1,4 @@
+#include "sim/lifting/contact.h"
 #include "sim/tangent_pass.h"
 
 #include <algorithm>
@@ -223,7 +224,7 @@ void TangentPass::watch_gap(SystemState& state, double h, const Recorder& record
   }
   const bool fresh = !gap_ || gap_->index != contact;
   if (fresh) {
-    const int channel = board_.find(model_.system().elements[contact]->name() + ".gap");
+    const int channel = board_.find(contact_channels::gap.of(model_.system().elements[contact]->name()));
     gap_ = Part{Source::element, contact, {0}, {channel}, true, {}};
   }
   differentiate({&*gap_, 1}, state, gap_slope_);

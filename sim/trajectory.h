@@ -77,21 +77,7 @@ struct Trajectory {
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }
 };
 
-// Channels that every trajectory has:
-//   <body>.x .y .z            m, Bo in W            <body>.roll .pitch .yaw   rad
-//   <body>.vx .vy .vz         m/s, Bo in W          <body>.wx .wy .wz         rad/s in B
-//   <wire>.tension N, .length m (stretched), .unstretched m, .rate m/s (of the unstretched length, + paying out),
-//          .offset_x .offset_y m (lower end relative to upper end, fore-aft and athwart in the crane vessel's heading),
-//          .off_lead .side_lead rad (angles from the vertical in and out of the boom's plane; other wires than hoist
-//          wires: in and out of the vessel's)
-//   <tagline>.tension N, .command N, .line_speed m/s (+ paying out), .saturated 0/1, .angle rad, .angle_rate rad/s
-//   <mooring>.tension N, .horizontal_tension N
-//   <contact>.force N (normal), .penetration m (deepest), .gap m (smallest, negative = penetrated), .approach_speed m/s,
-//          .x .y .z m
-//   <hull body>.buoyancy N, .submerged_volume m3
-//   <drive>.position, <drive>.rate
-//   <joint>.angle rad or .slide m (relative to the initial pose), .force_x/y/z N, .moment_x/y/z N m (on the child, in W)
-//   sea.elevation m (at the world origin)
-//   phase 1 (index of the phase)
+// Which channels there are: sim/run_channels.h of bodies, drives, joints and the sea; of a force element its own header
+// (wire_channels in sim/lifting/wire.h and so on).
 
 }  // namespace stillhook

@@ -7,6 +7,8 @@
 
 #include "problems/case_key.h"
 #include "problems/scenarios.h"
+#include "sim/lifting/tagline.h"
+#include "sim/lifting/wire.h"
 #include "sim/simulate.h"
 #include "tuning/meeting_keys.h"
 
@@ -75,9 +77,9 @@ std::vector<LineUse> use_of_lines(const Specification& specification, const Traj
   std::vector<LineUse> uses;
   for (const TaglineSpec& line : specification.taglines) {
     LineUse use;
-    const auto largest = [&](const char* quantity) {
+    const auto largest = [&](const ChannelKind<TaglineSpec>& quantity) {
       double value = 0.0;
-      const int c = run.find(line.name + quantity);
+      const int c = run.find(quantity.of(line));
       for (const auto& phase : run.extremes) {
         const Extreme& e = phase[static_cast<std::size_t>(c)];
         if (e.min <= e.max)
@@ -85,9 +87,9 @@ std::vector<LineUse> use_of_lines(const Specification& specification, const Traj
       }
       return value;
     };
-    use.speed = largest(".line_speed");
-    use.pull = largest(".command");
-    const auto& saturated = run.values[static_cast<std::size_t>(run.find(line.name + ".saturated"))];
+    use.speed = largest(tagline_channels::line_speed);
+    use.pull = largest(tagline_channels::command);
+    const auto& saturated = run.values[static_cast<std::size_t>(run.find(tagline_channels::saturated.of(line)))];
     for (const double s : saturated) use.saturated += s / static_cast<double>(saturated.size());
     uses.push_back(use);
   }
@@ -218,7 +220,7 @@ std::pair<double, double> fall_range(const Case& c, const OperationPart& part) {
     if (!part.whole() && static_cast<int>(p) != part.phase) continue;
     for (const std::size_t pose : {p, p + 1}) {
       if (part.hold > 0.0 && pose == p) continue;
-      const double length = operation.static_poses[pose].values.at(line->wire + ".length");
+      const double length = operation.static_poses[pose].values.at(wire_channels::length.of(line->wire));
       low = std::min(low, length);
       high = std::max(high, length);
     }

@@ -10,6 +10,7 @@
 
 #include "sim/lifting/line.h"
 #include "sim/lifting/tagline.h"
+#include "sim/lifting/wire.h"
 #include "sim/modes.h"
 #include "sim/multibody/hht_tangent.h"
 #include "sim/simulate.h"
@@ -173,7 +174,7 @@ class HangingPose {
     for (const WireSpec& w : model.specification().wires) {
       if (w.role != WireSpec::Role::hoist) continue;
       const auto values = channel_values(model, state);
-      length = std::max(length, values.at(w.name + ".length"));
+      length = std::max(length, values.at(wire_channels::length.of(w)));
     }
     BodyChange shape{mode.shape, VectorX::Zero(mode.shape.size())};
     displace_bodies(shape, 0, options.amplitude * length, state.body);
@@ -194,7 +195,7 @@ class HangingPose {
     int wires = 0;
     for (const WireSpec& w : model.specification().wires) {
       if (w.role != WireSpec::Role::hoist) continue;
-      const int c = run.find(w.name + (axis == 0 ? ".offset_x" : ".offset_y"));
+      const int c = run.find((axis == 0 ? wire_channels::offset_x : wire_channels::offset_y).of(w));
       for (std::size_t i = 0; i < offset.size(); ++i) offset[i] += run.values[static_cast<std::size_t>(c)][i];
       ++wires;
     }

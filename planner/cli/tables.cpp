@@ -88,7 +88,7 @@ std::string metrics_text(const Metrics& metrics) {
   TextTable table({"metric", "value", "unit", "time s", "phase"});
   for (const Metric& m : metrics.items) {
     const MetricDefinition* definition = metric_definition(m.name);
-    if (definition && !definition->element.empty()) continue;
+    if (definition && definition->element != MetricElement::none) continue;
     if (m.name == "event_timeouts" && m.value == 0.0) continue;  // no event was waited for in vain: nothing to tell
     table.add({m.name, short_number(m.value), unit_text(m.unit), cell(m.time, 1), m.phase});
   }

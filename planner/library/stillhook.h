@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/element_site.h"
+#include "sim/own_element.h"
 #include "sim/error.h"
 
 namespace stillhook {

@@ -55,7 +55,7 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
   return slope;
 }
 
-struct Table {
+struct DampingTable {
   std::vector<double> w;  // rad/s, from 0
   const std::vector<FrequencyCoefficients>* rows;
   std::size_t first;  // of the rows with w > 0
@@ -68,7 +68,7 @@ struct Table {
 };
 
 /// n_i of the tail.
-VectorX tail_powers(const Table& table, int modes) {
+VectorX tail_powers(const DampingTable& table, int modes) {
   VectorX power = VectorX::Constant(modes, kLeastPower);
   const std::size_t n = table.w.size();
   for (int i = 0; i < modes; ++i) {
@@ -81,7 +81,7 @@ VectorX tail_powers(const Table& table, int modes) {
 }
 
 /// B_ij at the rule's frequencies: the monotone cubic, then the tail.
-std::vector<double> refined(const Table& table, int i, int j, double power, const std::vector<double>& fine) {
+std::vector<double> refined(const DampingTable& table, int i, int j, double power, const std::vector<double>& fine) {
   const std::vector<double> y = table.series(i, j), slope = monotone_slopes(table.w, y);
   const double last = table.w.back();
   std::vector<double> B;
@@ -114,7 +114,7 @@ RetardationFunctions retardation_from_damping(const std::vector<FrequencyCoeffic
                                               const RetardationOptions& options) {
   if (!(options.interval > 0.0) || !(options.duration > options.interval))
     throw std::invalid_argument("the interval of the retardation functions must be > 0 and below their duration");
-  Table table{{0.0}, &rows, !rows.empty() && rows[0].frequency == 0.0 ? 1u : 0u};
+  DampingTable table{{0.0}, &rows, !rows.empty() && rows[0].frequency == 0.0 ? 1u : 0u};
   for (std::size_t f = table.first; f < rows.size(); ++f) table.w.push_back(rows[f].frequency);
   if (table.w.size() < 4)
     throw std::invalid_argument("the damping of at least three frequencies > 0 is needed for retardation functions");

@@ -87,8 +87,7 @@ class Hydrostatics final : public ForceElement {
   double potential_energy(const Instant& now, Memory m) const override;
 
   std::vector<Channel> channels() const override {
-    return {{body_name_ + ".buoyancy", "N", "vertical force of the water on the hull (hydrostatic and Froude-Krylov)"},
-            {body_name_ + ".submerged_volume", "m3", "volume of the hull below the wave profile"}};
+    return channels_of(body_name_, hull_channels::all);
   }
 
   void measure(const Instant& now, Memory m, std::span<double> out) const override {

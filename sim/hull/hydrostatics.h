@@ -12,13 +12,24 @@
 // water this is exact for the polyhedron. In waves a panel of edge L sees head waves of number k weaker by (k L)^2/12.
 #pragma once
 
+#include <array>
 #include <memory>
 
+#include "sim/channel_kind.h"
 #include "sim/hull/mesh.h"
 #include "sim/multibody/force_element.h"
 #include "sim/sea/wave_field.h"
 
 namespace stillhook {
+
+/// What is recorded of every hull, in the order in which measure() writes it.
+namespace hull_channels {
+inline constexpr ChannelKind<BodySpec> buoyancy{
+    "buoyancy", "N", "vertical force of the water on the hull (hydrostatic and Froude-Krylov)"};
+inline constexpr ChannelKind<BodySpec> submerged_volume{"submerged_volume", "m3",
+                                                        "volume of the hull below the wave profile"};
+inline constexpr std::array all = {buoyancy, submerged_volume};
+}  // namespace hull_channels
 
 /// The mesh of a hull in B: a box divided into panels, or the mesh file with edges longer than a panel's diagonal
 /// halved. panel_length = 0 takes automatic_panel_length. Throws MeshError; a hull without shape gives an empty mesh.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/element_site.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -42,8 +43,19 @@ double Ballast::potential_energy(const Instant& now, Memory) const {
   return weight_moved(now) * (motion_of(options_.to, now).p.z() - motion_of(options_.from, now).p.z());
 }
 
-std::vector<Channel> Ballast::channels() const { return {{name() + ".moved", "N", "weight moved"}}; }
+std::vector<Channel> Ballast::channels() const { return channels_of(name(), ballast_channels::all); }
 
 void Ballast::measure(const Instant& now, Memory, std::span<double> out) const { out[0] = weight_moved(now); }
+
+std::unique_ptr<const ForceElement> make_element(const BallastSpec& b, const ElementSite& site) {
+  BallastOptions o;
+  o.name = b.name;
+  o.from = site.point(b.body, b.from);
+  o.to = site.point(b.body, b.to);
+  o.mass = b.mass;
+  o.gravity = site.specification().sea.gravity;
+  o.drive = site.drive(b.drive);
+  return std::make_unique<const Ballast>(o);
+}
 
 }  // namespace stillhook

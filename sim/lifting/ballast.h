@@ -6,9 +6,20 @@
 // E = m s g (z_to - z_from); the pump gives m sdot g (z_to - z_from).
 #pragma once
 
+#include <array>
+
+#include "sim/channel_kind.h"
 #include "sim/multibody/point.h"
 
 namespace stillhook {
+
+struct BallastSpec;
+
+/// What is recorded of every entry, in the order in which measure() writes it.
+namespace ballast_channels {
+inline constexpr ChannelKind<BallastSpec> moved{"moved", "N", "weight moved"};
+inline constexpr std::array all = {moved};
+}  // namespace ballast_channels
 
 struct BallastOptions {
   std::string name;

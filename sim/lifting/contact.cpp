@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/element_site.h"
 #include "sim/lifting/unilateral.h"
 #include "sim/specification.h"
 
@@ -355,15 +356,7 @@ double Contact::dissipated_power(const Instant& now, Memory m) const {
   return power;
 }
 
-std::vector<Channel> Contact::channels() const {
-  return {{name() + ".force", "N", "normal force, all points together"},
-          {name() + ".penetration", "m", "deepest penetration"},
-          {name() + ".gap", "m", "smallest distance to the surface, negative when penetrated"},
-          {name() + ".approach_speed", "m/s", "normal approach speed of the fastest touching, else the nearest point"},
-          {name() + ".x", "m", "place: mean of the touching points, else the nearest point"},
-          {name() + ".y", "m", "place"},
-          {name() + ".z", "m", "place"}};
-}
+std::vector<Channel> Contact::channels() const { return channels_of(name(), contact_channels::all); }
 
 void Contact::measure(const Instant& now, Memory, std::span<double> out) const {
   const Surface s = surface(now);
@@ -394,6 +387,22 @@ void Contact::measure(const Instant& now, Memory, std::span<double> out) const {
   out[4] = place.x();
   out[5] = place.y();
   out[6] = place.z();
+}
+
+std::unique_ptr<const ForceElement> make_element(const ContactSpec& c, const ElementSite& site) {
+  ContactOptions o;
+  o.name = c.name;
+  o.body = site.body(c.body);
+  for (const Vector3& p : c.points) o.points.push_back(site.point(c.body, p).c_B);
+  o.surface = site.point(c.surface_body, c.surface_centre);
+  o.length = c.surface_length;
+  o.breadth = c.surface_breadth;
+  o.stiffness = c.stiffness;
+  o.damping = c.damping;
+  o.damping_depth = c.damping_depth;
+  o.friction = c.friction;
+  o.active_from_phase = site.first_phase(c.active_from, "contacts." + c.name);
+  return std::make_unique<const Contact>(o);
 }
 
 }  // namespace stillhook

@@ -20,10 +20,27 @@
 #pragma once
 
 #include <ceres/jet.h>
+#include <array>
 
+#include "sim/channel_kind.h"
 #include "sim/multibody/point.h"
 
 namespace stillhook {
+
+struct ContactSpec;
+
+/// What is recorded of every entry, in the order in which measure() writes it.
+namespace contact_channels {
+inline constexpr ChannelKind<ContactSpec> force{"force", "N", "normal force, all points together"};
+inline constexpr ChannelKind<ContactSpec> penetration{"penetration", "m", "deepest penetration"};
+inline constexpr ChannelKind<ContactSpec> gap{"gap", "m", "smallest distance to the surface, negative when penetrated"};
+inline constexpr ChannelKind<ContactSpec> approach_speed{
+    "approach_speed", "m/s", "normal approach speed of the fastest touching, else the nearest point"};
+inline constexpr ChannelKind<ContactSpec> x{"x", "m", "place: mean of the touching points, else the nearest point"};
+inline constexpr ChannelKind<ContactSpec> y{"y", "m", "place"};
+inline constexpr ChannelKind<ContactSpec> z{"z", "m", "place"};
+inline constexpr std::array all = {force, penetration, gap, approach_speed, x, y, z};
+}  // namespace contact_channels
 
 struct ContactOptions {
   std::string name;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/element_site.h"
 #include "sim/number_text.h"
 #include "sim/specification.h"
 
@@ -40,8 +41,8 @@ void Mooring::place_linear(const Vector3& fairlead, const Require& require) {
   if (o.anchor) o.anchor_distance = (*o.anchor - fairlead).head<2>().norm();
   require(std::isfinite(o.anchor_distance) && o.anchor_distance > 0.0, o.anchor ? "anchor" : "anchor_distance",
           "must be > 0 m from the fairlead, in the horizontal");
-  anchor_ = o.anchor.value_or(
-      Vector3(fairlead + o.anchor_distance * Vector3(std::cos(o.azimuth), std::sin(o.azimuth), 0.0)));
+  anchor_ =
+      o.anchor.value_or(Vector3(fairlead + o.anchor_distance * Vector3(std::cos(o.azimuth), std::sin(o.azimuth), 0.0)));
 }
 
 template <class Require>
@@ -76,9 +77,10 @@ void Mooring::place_catenary(const Vector3& fairlead, const Require& require) {
               number_text(o.line.length) + " m long");
   const double x = std::max(std::hypot(r.x(), r.y()), kNearAnchor * o.line.length);
   const double over = catenary_overhang(o.line, solve_catenary(o.line, x, r.z()));
-  require(!buoyant || over <= kStraight || fairlead.z() + over <= 0.0, "length",
-          "the line is buoyant and so long that it would rise above its fairlead and float at the surface, which is not "
-          "modelled: shorten it or move its anchor away, or give it as a linear line");
+  require(
+      !buoyant || over <= kStraight || fairlead.z() + over <= 0.0, "length",
+      "the line is buoyant and so long that it would rise above its fairlead and float at the surface, which is not "
+      "modelled: shorten it or move its anchor away, or give it as a linear line");
   require(buoyant || o.line.on_seabed || anchor_.z() - over >= -o.depth - kStraight, "length",
           "the line hangs from an anchor above the sea bed and is so long that it would lie on it between its ends, "
           "which is not modelled: shorten it, or put the anchor on the sea bed where it comes up");
@@ -167,15 +169,32 @@ void Mooring::add_jacobian(const Instant& now, double, Memory m, JacobianSum& ou
 
 double Mooring::potential_energy(const Instant& now, Memory m) const { return load(now, m).energy; }
 
-std::vector<Channel> Mooring::channels() const {
-  return {{name() + ".tension", "N", "tension at the fairlead"},
-          {name() + ".horizontal_tension", "N", "its horizontal part"}};
-}
+std::vector<Channel> Mooring::channels() const { return channels_of(name(), mooring_channels::all); }
 
 void Mooring::measure(const Instant& now, Memory m, std::span<double> out) const {
   const Load l = load(now, m);
   out[0] = std::hypot(l.H, l.V);
   out[1] = l.H;
+}
+
+std::unique_ptr<const ForceElement> make_element(const MooringSpec& m, const ElementSite& site) {
+  MooringOptions o;
+  o.name = m.name;
+  o.type = m.type == MooringSpec::Type::catenary ? MooringOptions::Type::catenary : MooringOptions::Type::linear;
+  o.fairlead = site.point(m.body, m.fairlead);
+  o.anchor = m.anchor;
+  o.azimuth = m.azimuth;
+  o.pretension = m.pretension;
+  o.line.length = m.length;
+  o.line.weight = m.weight;
+  o.line.axial_stiffness = m.axial_stiffness;
+  o.line.seabed_friction = m.seabed_friction;
+  o.depth = site.specification().sea.depth;
+  o.stiffness = m.stiffness;
+  o.anchor_distance = m.anchor_distance;
+  o.tow_drive = site.drive_or_none(m.tow);
+  if (o.tow_drive >= 0) o.tow_direction = m.tow_direction.normalized();
+  return std::make_unique<const Mooring>(o, site.now());
 }
 
 }  // namespace stillhook

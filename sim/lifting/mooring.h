@@ -14,12 +14,23 @@
 // does not jump.
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "sim/channel_kind.h"
 #include "sim/lifting/catenary.h"
 #include "sim/multibody/point.h"
 
 namespace stillhook {
+
+struct MooringSpec;
+
+/// What is recorded of every entry, in the order in which measure() writes it.
+namespace mooring_channels {
+inline constexpr ChannelKind<MooringSpec> tension{"tension", "N", "tension at the fairlead"};
+inline constexpr ChannelKind<MooringSpec> horizontal_tension{"horizontal_tension", "N", "its horizontal part"};
+inline constexpr std::array all = {tension, horizontal_tension};
+}  // namespace mooring_channels
 
 struct MooringOptions {
   enum class Type { catenary, linear };

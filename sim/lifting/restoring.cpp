@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/element_site.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -125,14 +126,7 @@ double Restoring::dissipated_power(const Instant& now, Memory) const {
   return -m.V.dot(m.damper);
 }
 
-std::vector<Channel> Restoring::channels() const {
-  std::vector<Channel> all;
-  for (const char* axis : {"x", "y", "z"})
-    all.push_back({name() + ".force_" + axis, "N", "force on the body at the point, world axes"});
-  for (const char* axis : {"x", "y", "z"})
-    all.push_back({name() + ".moment_" + axis, "N m", "moment on the body about the point, world axes"});
-  return all;
-}
+std::vector<Channel> Restoring::channels() const { return channels_of(name(), restoring_channels::all); }
 
 void Restoring::measure(const Instant& now, Memory, std::span<double> out) const {
   const Motion m = motion(now);
@@ -141,6 +135,21 @@ void Restoring::measure(const Instant& now, Memory, std::span<double> out) const
     out[static_cast<std::size_t>(i)] = m.force_W[i];
     out[static_cast<std::size_t>(i + 3)] = moment_W[i];
   }
+}
+
+std::unique_ptr<const ForceElement> make_element(const RestoringSpec& r, const ElementSite& site) {
+  const BodySpec& body = site.specification().bodies[static_cast<std::size_t>(site.body(r.body))];
+  RestoringOptions o;
+  o.name = r.name;
+  o.point = site.point(r.body, r.point);
+  // The given pose, not the one that joints or an equilibrium made of it: the case says where it is at rest.
+  o.rest_R_WB = rotation_from(r.rest_attitude.value_or(body.attitude));
+  o.rest_point = r.rest_point.value_or(Vector3(body.position + rotation_from(body.attitude) * r.point));
+  o.axes = rotation_from({0.0, 0.0, r.axes_heading.value_or(roll_pitch_yaw(o.rest_R_WB).yaw)});
+  o.stiffness = r.stiffness;
+  o.damping = r.damping;
+  o.force_at_rest = r.force_at_rest;
+  return std::make_unique<const Restoring>(o);
 }
 
 }  // namespace stillhook

@@ -11,9 +11,28 @@
 // half a turn; J_r^-T makes the moment the one that does the work of the energy U = x^T K x/2 - F_0 . (p_P - p_0).
 #pragma once
 
+#include <array>
+
+#include "sim/channel_kind.h"
 #include "sim/multibody/point.h"
 
 namespace stillhook {
+
+struct RestoringSpec;
+
+/// What is recorded of every entry, in the order in which measure() writes it.
+namespace restoring_channels {
+inline constexpr ChannelKind<RestoringSpec> force_x{"force_x", "N", "force on the body at the point, world axes"};
+inline constexpr ChannelKind<RestoringSpec> force_y{"force_y", "N", "force on the body at the point, world axes"};
+inline constexpr ChannelKind<RestoringSpec> force_z{"force_z", "N", "force on the body at the point, world axes"};
+inline constexpr ChannelKind<RestoringSpec> moment_x{"moment_x", "N m",
+                                                     "moment on the body about the point, world axes"};
+inline constexpr ChannelKind<RestoringSpec> moment_y{"moment_y", "N m",
+                                                     "moment on the body about the point, world axes"};
+inline constexpr ChannelKind<RestoringSpec> moment_z{"moment_z", "N m",
+                                                     "moment on the body about the point, world axes"};
+inline constexpr std::array all = {force_x, force_y, force_z, moment_x, moment_y, moment_z};
+}  // namespace restoring_channels
 
 struct RestoringOptions {
   std::string name;

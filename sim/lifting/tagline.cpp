@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/element_site.h"
 #include "sim/lifting/line.h"
 #include "sim/specification.h"
 
@@ -288,14 +289,7 @@ double Tagline::dissipated_power(const Instant& now, Memory m) const {
   return held_tension(now, m) * m.state[kSlipSpeed];
 }
 
-std::vector<Channel> Tagline::channels() const {
-  return {{name() + ".tension", "N", "tension"},
-          {name() + ".command", "N", "commanded tension"},
-          {name() + ".line_speed", "m/s", "speed of the line at the winch, positive paying out"},
-          {name() + ".saturated", "1", "1 while the speed or the tension limit acts"},
-          {name() + ".angle", "rad", "controlled angle of the hoist wire, positive away from the winch"},
-          {name() + ".angle_rate", "rad/s", "its rate"}};
-}
+std::vector<Channel> Tagline::channels() const { return channels_of(name(), tagline_channels::all); }
 
 void Tagline::measure(const Instant& now, Memory m, std::span<double> out) const {
   const PlaneAngle::Value angle = angle_.value(now);
@@ -305,6 +299,30 @@ void Tagline::measure(const Instant& now, Memory m, std::span<double> out) const
   out[3] = m.state[kSaturated];
   out[4] = angle.angle;
   out[5] = angle.rate;
+}
+
+std::unique_ptr<const ForceElement> make_element(const TaglineSpec& t, const ElementSite& site) {
+  TaglineOptions o;
+  o.name = t.name;
+  o.from = site.point(t.from, t.point_from);
+  o.to = site.point(t.to, t.point_to);
+  for (const WireSpec& w : site.specification().wires)
+    if (w.name == t.wire) {
+      o.hoist_upper = site.point(w.from, w.point_from);
+      o.hoist_lower = site.point(w.to, w.point_to);
+    }
+  o.kp = t.kp;
+  o.kd = t.kd;
+  for (const GainPointSpec& g : t.gain_schedule) o.schedule.push_back({g.fall, g.kp_factor, g.kd_factor});
+  o.set_point = t.set_point;
+  o.pretension = t.pretension;
+  o.tension_max = t.tension_max;
+  o.speed_max = t.speed_max;
+  o.time_constant = t.time_constant;
+  o.axial_stiffness = t.axial_stiffness;
+  o.active = t.active;
+  o.active_from_phase = site.first_phase(t.active_from, "taglines." + t.name);
+  return std::make_unique<const Tagline>(o, site.now());
 }
 
 }  // namespace stillhook

@@ -38,9 +38,27 @@
 // Energy: 1/2 T^2/k in the line; heat T x slip speed in the brake; the winch gives -T x (rest of the line speed).
 #pragma once
 
+#include <array>
+
+#include "sim/channel_kind.h"
 #include "sim/lifting/plane_angle.h"
 
 namespace stillhook {
+
+struct TaglineSpec;
+
+/// What is recorded of every entry, in the order in which measure() writes it.
+namespace tagline_channels {
+inline constexpr ChannelKind<TaglineSpec> tension{"tension", "N", "tension"};
+inline constexpr ChannelKind<TaglineSpec> command{"command", "N", "commanded tension"};
+inline constexpr ChannelKind<TaglineSpec> line_speed{"line_speed", "m/s",
+                                                     "speed of the line at the winch, positive paying out"};
+inline constexpr ChannelKind<TaglineSpec> saturated{"saturated", "1", "1 while the speed or the tension limit acts"};
+inline constexpr ChannelKind<TaglineSpec> angle{"angle", "rad",
+                                                "controlled angle of the hoist wire, positive away from the winch"};
+inline constexpr ChannelKind<TaglineSpec> angle_rate{"angle_rate", "rad/s", "its rate"};
+inline constexpr std::array all = {tension, command, line_speed, saturated, angle, angle_rate};
+}  // namespace tagline_channels
 
 /// Factors on the gains at one length of the hoist wire.
 struct GainPoint {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/crane_parts.h"
+#include "sim/element_site.h"
 #include "sim/lifting/line.h"
 #include "sim/specification.h"
 
@@ -80,16 +82,7 @@ double Wire::dissipated_power(const Instant& now, Memory) const {
                                 options_.axial_stiffness / L.length);
 }
 
-std::vector<Channel> Wire::channels() const {
-  return {{name() + ".tension", "N", "tension"},
-          {name() + ".length", "m", "stretched length: distance of the ends"},
-          {name() + ".unstretched", "m", "unstretched length"},
-          {name() + ".rate", "m/s", "rate of the unstretched length, positive paying out"},
-          {name() + ".offset_x", "m", "lower end forward of the upper end, in the crane's heading"},
-          {name() + ".offset_y", "m", "lower end to port of the upper end, in the crane's heading"},
-          {name() + ".off_lead", "rad", "angle from the vertical in the boom's plane, positive outwards"},
-          {name() + ".side_lead", "rad", "angle from the vertical out of the boom's plane, positive to port"}};
-}
+std::vector<Channel> Wire::channels() const { return channels_of(name(), wire_channels::all); }
 
 /// Columns: along the boom in plan, to port of it, up. R_WH is the heading that the offsets are measured in.
 Matrix3 Wire::lead_axes(const Instant& now, const Matrix3& R_WH) const {
@@ -118,6 +111,29 @@ void Wire::measure(const Instant& now, Memory, std::span<double> out) const {
   out[5] = offset_H.y();
   out[6] = std::atan2(offset_L.x(), -offset_L.z());
   out[7] = std::atan2(offset_L.y(), -offset_L.z());
+}
+
+double end_distance(const WireSpec& wire, const ElementSite& site) {
+  return site.distance(site.point(wire.from, wire.point_from), site.point(wire.to, wire.point_to));
+}
+
+std::unique_ptr<const ForceElement> make_element(const WireSpec& w, const ElementSite& site) {
+  WireOptions o;
+  o.name = w.name;
+  o.from = site.point(w.from, w.point_from);
+  o.to = site.point(w.to, w.point_to);
+  o.axial_stiffness = w.axial_stiffness;
+  o.unstretched_length = site.initial_length(w.name);
+  o.damping = w.damping > 0.0 ? w.damping
+                              : wire_damping(w.damping_ratio, w.damping_mass, w.axial_stiffness, o.unstretched_length);
+  o.drive = site.drive_or_none(w.winch);
+  if (const std::vector<std::string> vessels = crane_vessels(site.specification()); !vessels.empty())
+    o.crane = site.body(vessels.front());
+  if (w.role == WireSpec::Role::hoist && site.body(w.from) != kWorld) {
+    o.boom = site.body(w.from);
+    o.boom_athwart = boom_athwart(site.specification(), w.from);
+  }
+  return std::make_unique<const Wire>(o);
 }
 
 }  // namespace stillhook

@@ -11,25 +11,51 @@
 // Cha, Nam & Ha (2018), section 5.2. A damping ratio zeta of a mass m on the wire means c = 2 zeta sqrt(EA/L0 m).
 #pragma once
 
+#include <array>
+
+#include "sim/channel_kind.h"
 #include "sim/lifting/unilateral.h"
 #include "sim/multibody/point.h"
 
 namespace stillhook {
 
+class ElementSite;
+struct WireSpec;
+
+/// What is recorded of every entry, in the order in which measure() writes it.
+namespace wire_channels {
+inline constexpr ChannelKind<WireSpec> tension{"tension", "N", "tension"};
+inline constexpr ChannelKind<WireSpec> length{"length", "m", "stretched length: distance of the ends"};
+inline constexpr ChannelKind<WireSpec> unstretched{"unstretched", "m", "unstretched length"};
+inline constexpr ChannelKind<WireSpec> rate{"rate", "m/s", "rate of the unstretched length, positive paying out"};
+inline constexpr ChannelKind<WireSpec> offset_x{"offset_x", "m",
+                                                "lower end forward of the upper end, in the crane's heading"};
+inline constexpr ChannelKind<WireSpec> offset_y{"offset_y", "m",
+                                                "lower end to port of the upper end, in the crane's heading"};
+inline constexpr ChannelKind<WireSpec> off_lead{"off_lead", "rad",
+                                                "angle from the vertical in the boom's plane, positive outwards"};
+inline constexpr ChannelKind<WireSpec> side_lead{"side_lead", "rad",
+                                                 "angle from the vertical out of the boom's plane, positive to port"};
+inline constexpr std::array all = {tension, length, unstretched, rate, offset_x, offset_y, off_lead, side_lead};
+}  // namespace wire_channels
+
 struct WireOptions {
   std::string name;
-  BodyPoint from, to;               // "from" is the upper end or the sheave
-  double axial_stiffness = 0.0;     // N, > 0
-  double unstretched_length = 0.0;  // m, at drive position zero, > 0
-  double damping = 0.0;             // N s/m, >= 0
-  double damping_strain = 1e-4;     // 1, strain over which the damping grows to its full value, > 0
-  int drive = -1;                   // index of the winch, m hauled in; -1 = fixed length
-  int crane = kWorld;               // body whose heading gives fore-aft and athwart for the offsets
-  int boom = kWorld;                // body in and out of whose plane the leads are; kWorld = as the offsets
+  BodyPoint from, to;                       // "from" is the upper end or the sheave
+  double axial_stiffness = 0.0;             // N, > 0
+  double unstretched_length = 0.0;          // m, at drive position zero, > 0
+  double damping = 0.0;                     // N s/m, >= 0
+  double damping_strain = 1e-4;             // 1, strain over which the damping grows to its full value, > 0
+  int drive = -1;                           // index of the winch, m hauled in; -1 = fixed length
+  int crane = kWorld;                       // body whose heading gives fore-aft and athwart for the offsets
+  int boom = kWorld;                        // body in and out of whose plane the leads are; kWorld = as the offsets
   Vector3 boom_athwart = Vector3::UnitY();  // normal of that plane, to port, in the boom's axes
 
   bool operator==(const WireOptions&) const = default;
 };
+
+/// Distance of the ends of a wire at the initial pose, m.
+double end_distance(const WireSpec& wire, const ElementSite& site);
 
 /// c = 2 zeta sqrt(EA/L0 m), N s/m.
 double wire_damping(double damping_ratio, double mass, double axial_stiffness, double unstretched_length);

@@ -31,18 +31,15 @@ double cost_of(const std::function<void()>& call) {
 }
 
 std::string part_of(const Specification& spec, const std::string& element) {
-  const auto named = [&](const auto& list) {
-    for (const auto& entry : list)
-      if (entry.name == element) return true;
-    return false;
-  };
   if (element.ends_with(".hydrostatics")) return "hydrostatics";
   if (element.ends_with(".hydrodynamics")) return "hydrodynamics";
-  if (named(spec.wires)) return "wires";
-  if (named(spec.taglines)) return "taglines";
-  if (named(spec.moorings)) return "moorings";
-  if (named(spec.contacts)) return "contact";
-  return "ballast and joint drives";
+  std::string section;
+  for_each_element_kind([&](const auto& kind) {
+    for (const auto& entry : spec.*kind.entries)
+      if (entry.name == element) section = kind.section;
+  });
+  if (!section.empty()) return section;
+  return "joint drives";
 }
 
 /// The loop of simulate(), with its parts in reach.

@@ -155,7 +155,7 @@ acceleration_max_share_per_s2 = 0.02)");
   CHECK(ballast.speed_max == Approx(0.01));
   CHECK(ballast.acceleration_max == 0.02);
 
-  const auto tagline = read_into<TaglineSpec>(tagline_table(), R"(name = "t"
+  const auto tagline = read_into<TaglineSpec>(element_table<TaglineSpec>(), R"(name = "t"
 kp_kN_per_deg = 20.0
 kd_kN_s_per_deg = 100.0
 set_point_deg = -1.5
@@ -169,7 +169,7 @@ axial_stiffness_kN = 5.0)");
   CHECK(tagline.speed_max == Approx(0.5));
   CHECK(tagline.axial_stiffness == 5e3);
 
-  const auto contact = read_into<ContactSpec>(contact_table(), R"(name = "c"
+  const auto contact = read_into<ContactSpec>(element_table<ContactSpec>(), R"(name = "c"
 points_m = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
 damping_depth_m = 0.013)");
   REQUIRE(contact.points.size() == 2);

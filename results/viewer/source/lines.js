@@ -1,4 +1,4 @@
-// Wires and taglines in the colour of their tension, moorings as catenaries.
+// Wires and taglines in the colour of their tension, moorings as catenaries, forces as arrows.
 
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -60,6 +60,34 @@ export class Wires {
     });
     points.needsUpdate = true;
     colours.needsUpdate = true;
+  }
+}
+
+/** Forces as arrows: along the force, in length its share of the largest. They point at what they push. */
+export class Arrows {
+  constructor(arrows, length) {
+    this.arrows = arrows;
+    this.length = length;
+    this.group = new THREE.Group();
+    this.helpers = arrows.map(() => new THREE.ArrowHelper(new THREE.Vector3(1, 0, 0), new THREE.Vector3(), 1, "#7a2fb8"));
+    for (const helper of this.helpers) this.group.add(helper);
+    this.point = new THREE.Vector3();
+    this.force = new THREE.Vector3();
+  }
+
+  update(payload, place, bodies) {
+    this.arrows.forEach((arrow, i) => {
+      const helper = this.helpers[i];
+      this.force.set(...arrow.force.map((series) => (series >= 0 ? payload.value(series, place) : 0)));
+      const length = (this.length * this.force.length()) / arrow.reference;
+      helper.visible = length > 0.02 * this.length;
+      if (!helper.visible) return;
+      worldPoint(bodies, arrow.body, arrow.point, this.point);
+      this.force.normalize();
+      helper.setDirection(this.force);
+      helper.setLength(length, 0.25 * length, 0.12 * length);
+      helper.position.copy(this.point).addScaledVector(this.force, -length);
+    });
   }
 }
 

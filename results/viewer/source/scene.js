@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Body, meshGeometry } from "./bodies.js";
-import { Moorings, Wires } from "./lines.js";
+import { Arrows, Moorings, Wires } from "./lines.js";
 import { bodyMarks, directions } from "./marks.js";
 import { Sea } from "./sea.js";
 
@@ -79,6 +79,8 @@ export class ReplayScene {
     this.size = box.getSize(new THREE.Vector3()).length();
     this.sea = new Sea(this.data.sea, this.middle, SKY, coarse ? 72 : 144);
     this.scene.add(this.sea.mesh);
+    this.arrows = new Arrows(this.data.arrows ?? [], 0.16 * this.size);
+    this.scene.add(this.arrows.group);
     this.scene.add(directions(this.data.sea.components, this.data.north, box));
     for (const body of this.bodies) bodyMarks(body, this.size);
     this.load = this.bodies.find(({ body }) => body.kind === "load") ?? this.bodies[0];
@@ -231,6 +233,7 @@ export class ReplayScene {
     for (const body of this.bodies) body.update(this.payload, place);
     this.wires.update(this.payload, place, t, this.bodies);
     this.moorings.update(this.payload, place, this.bodies);
+    this.arrows.update(this.payload, place, this.bodies);
     this.sea.update(t);
     const contact = this.touching(t);
     this.flash.visible = contact !== undefined;

@@ -1,5 +1,8 @@
-// Field table of linear springs and dampers between a body and the world.
+// Linear springs and dampers between a body and the world, in a case: keys and rules.
+#include <fmt/core.h>
+
 #include "problems/case_format.h"
+#include "problems/entry_check.h"
 
 namespace stillhook {
 namespace {
@@ -35,7 +38,7 @@ void whole_matrix(TableOf<RestoringSpec>& t, const char* key, Matrix6 RestoringS
 
 }  // namespace
 
-const Table& restoring_table() {
+const Table& case_table(const RestoringSpec*) {
   static const Table table = [] {
     TableOf<RestoringSpec> t(
         "restoring",
@@ -80,6 +83,17 @@ const Table& restoring_table() {
     return t.build();
   }();
   return table;
+}
+
+void check_entry(const RestoringSpec& r, EntryCheck& check) {
+  check.one_of("angular_stiffness_kN_m_per_rad", "stiffness_matrix_kN_m");
+  check.one_of("angular_damping_kN_m_s_per_rad", "damping_matrix_kN_s_m");
+  if (r.stiffness.isZero(0.0) && r.damping.isZero(0.0) && r.force_at_rest.isZero(0.0))
+    check.report("", "does nothing: give it a stiffness, a damping or a force_at_rest_kN");
+  const BodySpec* body = entry_named(check.specification().bodies, r.body);
+  if (body && body->moved_by_sea())
+    check.report(
+        "body", fmt::format("\"{}\" moves by displacement RAOs, which no spring changes: leave the entry out", r.body));
 }
 
 }  // namespace stillhook
