@@ -47,7 +47,8 @@ CHAPTERS = [
      [("Lines", "sim/lifting/line.h"), ("The unilateral spring-damper", "sim/lifting/unilateral.h"), ("Wires", "sim/lifting/wire.h"),
       ("Winch and drive profiles", "sim/lifting/profile.h"), ("The angle of a hanging line", "sim/lifting/plane_angle.h"),
       ("Taglines", "sim/lifting/tagline.h"), ("Contact", "sim/lifting/contact.h"), ("Catenaries", "sim/lifting/catenary.h"),
-      ("Moorings", "sim/lifting/mooring.h"), ("Springs to the world", "sim/lifting/restoring.h"), ("Ballast", "sim/lifting/ballast.h")]),
+      ("Moorings", "sim/lifting/mooring.h"), ("Springs to the world", "sim/lifting/restoring.h"), ("Ballast", "sim/lifting/ballast.h"),
+      ("Wind on bodies", "sim/environment/wind_area.h")]),
     ("Derivatives and the search", "How a run changes with its parameters, and what a search by gradients looks at.",
      [("The tangent of a step", "sim/multibody/hht_tangent.h"), ("Kinks of the laws", "sim/multibody/branches.h"),
       ("The tangent of a run", "sim/tangent.h"),
@@ -59,7 +60,7 @@ CHAPTERS = [
       ("Where a record began", "tuning/start_state.h"), ("Least squares", "tuning/fit.h"),
       ("Residuals", "tuning/record_unit.h"), ("Segments", "tuning/segments.h"), ("Uncertainty", "tuning/uncertainty.h")]),
     ("Metrics", "What the numbers of a report mean; [summary.md](summary.md) lists them.",
-     [("Shared definitions", "results/metrics.h"), ("Lift-off and re-hits", "results/metrics_contact.cpp")]),
+     [("Shared definitions", "results/metrics.h"), ("Lift-off and re-hits", "results/metrics/lift_off.cpp")]),
 ]
 
 # What the short citations stand for. The key is how the text cites: names up to the year.

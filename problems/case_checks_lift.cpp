@@ -32,6 +32,7 @@ class LiftCheck {
     for (const ClearanceSpec& clearance : spec_.clearances)
       if (clearance.a.body == clearance.b.body)
         report("clearances." + clearance.name, "b.body", "is the same body as that of a");
+    check_wind();
     check_panel_method();
     check_solver();
   }
@@ -77,6 +78,16 @@ class LiftCheck {
     for (const BodySpec& other : spec_.bodies)
       if (other.name == h.coupled_with && other.hydrodynamics.kind != HydrodynamicsSpec::Kind::panels)
         report(entry, "coupled_with", fmt::format("must be a body with kind = \"panels\", \"{}\" is not", other.name));
+  }
+
+  /// Wind that leaves out the load would be worse than none: a report would show it.
+  void check_wind() {
+    const std::string& load = spec_.operation.load;
+    const auto& areas = spec_.wind_areas;
+    if (!spec_.wind.blows() || load.empty()) return;
+    if (std::none_of(areas.begin(), areas.end(), [&](const WindAreaSpec& a) { return a.body == load; }))
+      report("wind", "speed_m_per_s",
+             fmt::format("blows on nothing of the load: give [[wind_areas]] with body = \"{}\"", load));
   }
 
   void check_panel_method() {

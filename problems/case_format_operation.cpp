@@ -276,6 +276,7 @@ const Table& case_table() {
              "in reports. It changes no result.")
         .absent("not known");
     t.table("sea", spec(&Specification::sea), &sea_table, "The water and its waves.").absent("calm, deep sea water");
+    t.table("wind", spec(&Specification::wind), &wind_table, "The wind.").absent("none");
     t.tables("bodies", spec(&Specification::bodies), "name", &body_table, "Rigid bodies.").require();
     t.table("panel_method", spec(&Specification::panel_method), &panel_method_table, "Coefficients of hulls.")
         .absent("defaults");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -260,6 +261,29 @@ struct BallastSpec : ElementEntry<BallastSpec> {
   std::string drive;
 };
 
+/// Steady wind over the sea.
+struct WindSpec {
+  enum class Profile { iso, power, constant };
+  double speed = 0.0;             // m/s, hourly mean at 10 m above still water; 0 = no wind
+  std::optional<double> from, to;  // rad, where it comes from or goes to, from +x counter-clockwise; one of them
+  Profile profile = Profile::iso;
+  double exponent = 0.12;         // of Profile::power
+  double density = 1.226;         // kg/m3, of the air
+
+  bool blows() const { return speed > 0.0; }
+  double towards() const { return to ? *to : from ? *from + std::numbers::pi : 0.0; }
+  bool operator==(const WindSpec&) const = default;
+};
+
+/// An area of a body that the wind blows on.
+struct WindAreaSpec : ElementEntry<WindAreaSpec> {
+  std::string body;
+  Vector3 centre = Vector3::Zero();            // m, in B
+  Vector3 areas = Vector3::Zero();             // m2, that wind along x, y, z of B meets
+  Vector3 drag = Vector3::Constant(1.2);       // 1, along x, y, z of B
+  std::optional<double> height;                // m; absent: root of the larger of the areas across x and y
+};
+
 // ---- operation ------------------------------------------------------------------------------------------------
 
 /// A scalar measured in the model that a goal can ask for.
@@ -366,6 +390,8 @@ struct Specification {
   std::vector<RestoringSpec> restoring;
   std::vector<ContactSpec> contacts;
   std::vector<BallastSpec> ballast;
+  WindSpec wind;
+  std::vector<WindAreaSpec> wind_areas;
   OperationSpec operation;
   std::vector<PoseSpec> poses;
   std::vector<ClearanceSpec> clearances;
@@ -383,6 +409,7 @@ inline constexpr std::tuple kElementKinds = {
     ElementKind<RestoringSpec>{"restoring", "spring", "Linear springs to the world", &Specification::restoring},
     ElementKind<ContactSpec>{"contacts", "contact", "Contacts", &Specification::contacts},
     ElementKind<BallastSpec>{"ballast", "ballast", "Ballast transfers", &Specification::ballast, &BallastSpec::drive},
+    ElementKind<WindAreaSpec>{"wind_areas", "wind area", "Areas in the wind", &Specification::wind_areas},
 };
 
 /// Calls visit(kind) for each of them.
