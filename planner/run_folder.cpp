@@ -1,7 +1,6 @@
 #include "planner/run_folder.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -10,35 +9,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kFiles = {"case.toml",
-                               "summary.json",
-                               "history.nc",
-                               "history.csv",
-                               "history.xlsx",
-                               "report.html",
-                               "plan.toml",
-                               "fitted.toml",
-                               "tuned.toml",
-                               "evaluations.sqlite",
-                               "evaluations.sqlite-wal",
-                               "evaluations.sqlite-shm",
-                               "front.sqlite",
-                               "front.sqlite-wal",
-                               "front.sqlite-shm",
-                               "judgement.json"};
-
-/// What a run that was killed left half written.
-bool is_unfinished(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return std::any_of(kFiles.begin(), kFiles.end(),
-                     [&](const char* of) { return name.starts_with(std::string(of) + ".part-"); });
+bool matches(const std::string& name, const std::string& pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string::npos) return name == pattern;
+  return name.size() + 1 >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
+         name.ends_with(pattern.substr(star + 1));
 }
 
-/// coefficients-<set>.csv and the like.
-bool is_coefficient_file(const fs::path& file) {
-  const std::string name = file.filename().string(), ending = file.extension().string();
-  return name.starts_with("coefficients-") &&
-         (ending == ".csv" || ending == ".h5" || ending == ".1" || ending == ".3" || ending == ".hst");
+/// A file of a run, or what a run that was killed left half written.
+bool is_of_a_run(const fs::path& file) {
+  const std::string name = file.filename().string(), whole = name.substr(0, name.find(".part-"));
+  return std::any_of(run_files().begin(), run_files().end(),
+                     [&](const RunFile& of) { return matches(name, of.name) || matches(whole, of.name); });
 }
 
 bool holds_a_run(const fs::path& path) {
@@ -66,11 +48,10 @@ void prepare(const fs::path& path, RunFolder::Mode mode) {
     case RunFolder::Mode::replace:
       if (occupied && !holds_a_run(path))
         throw UsageError(name + ": holds files but no run of stillhook; --force does not touch it, use another --out");
-      for (const char* file : kFiles) fs::remove(path / file);
       if (occupied) {
         std::vector<fs::path> former;
         for (const auto& entry : fs::directory_iterator(path))
-          if (is_coefficient_file(entry.path()) || is_unfinished(entry.path())) former.push_back(entry.path());
+          if (is_of_a_run(entry.path())) former.push_back(entry.path());
         for (const fs::path& file : former) fs::remove(file);
       }
       break;

@@ -1,9 +1,8 @@
-// The folder that a run leaves: case.toml, summary.json, history.nc, report.html and, for searches, plan.toml and
-// evaluations.sqlite, front.sqlite, judgement.json; for fits fitted.toml; for tuned gains tuned.toml; for hydro
-// coefficients-*.{csv,h5,1,3,hst}. Every file but the store is written whole or not at all.
+// The folder that a run leaves. Every file but the store of a search is written whole or not at all.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "planner/folder_lock.h"
 #include "problems/case.h"
@@ -17,6 +16,15 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// A file that runs leave in their folders.
+struct RunFile {
+  std::string name;     // "plan.toml"; a "*" stands for anything
+  std::string meaning;  // for the manual
+};
+
+/// What any verb may leave (planner/verbs/verbs.cpp): --force removes these and nothing else.
+const std::vector<RunFile>& run_files();
+
 class RunFolder {
  public:
   enum class Mode {
@@ -27,8 +35,8 @@ class RunFolder {
   };
 
   /// Makes or opens the folder and, but for `read`, locks it as long as this object lives. Throws UsageError: it exists
-  /// (fresh), holds something that is no run (replace), does not exist (resume, read), cannot be made, or another process
-  /// writes into it.
+  /// (fresh), holds something that is no run (replace), does not exist (resume, read), cannot be made, or another
+  /// process writes into it.
   RunFolder(std::string path, Mode mode);
 
   const std::string& path() const { return path_; }

@@ -19,10 +19,12 @@
 namespace stillhook {
 namespace {
 
+std::string override_origin(const Override& setting) { return "--set " + setting.key + "=" + setting.value; }
+
 Node document_of(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
   Node root = parse_document(text, file);
   for (const Override& setting : overrides) {
-    const std::string origin = "--set " + setting.key + "=" + setting.value;
+    const std::string origin = override_origin(setting);
     Node value = parse_value(setting.key, setting.value);
     value.position = {origin, 1, 1};
     try {
@@ -41,16 +43,12 @@ std::string written(double value) {
 
 }  // namespace
 
-Case read_case_text(const std::string& text, const std::string& name, const std::string& directory,
-                    const std::vector<Override>& overrides) {
-  Node root = document_of(text, name, overrides);
-  Case c;
-  c.directory = directory;
-  c.file = name;
-  c.text = text;
-  c.overrides = overrides;
-  Findings findings(name);
-  TableReader reader(directory, findings);
+namespace {
+
+/// Fills a case, whose text, file, directory and overrides are known, from its document.
+void read_document(Node root, Case& c) {
+  Findings findings(c.file);
+  TableReader reader(c.directory, findings);
   reader.read(case_table(), root, &c, {});
   check_names(c, root, reader.references(), findings);
   findings.throw_if_any();  // what follows takes every key and name for good
@@ -65,9 +63,23 @@ Case read_case_text(const std::string& text, const std::string& name, const std:
   for (JointSpec& joint : c.specification.joints) joint.axis.normalize();
   for (MooringSpec& mooring : c.specification.moorings)
     if (!mooring.tow.empty()) mooring.tow_direction.normalize();
-  c.resolved = write_document(root);
+  c.document = std::make_shared<const Node>(std::move(root));
+}
+
+}  // namespace
+
+Case read_case_text(const std::string& text, const std::string& name, const std::string& directory,
+                    const std::vector<Override>& overrides) {
+  Case c;
+  c.directory = directory;
+  c.file = name;
+  c.text = text;
+  c.overrides = overrides;
+  read_document(document_of(text, name, overrides), c);
   return c;
 }
+
+std::string resolved_text(const Case& c) { return write_document(*c.document); }
 
 Case read_case(const std::string& path, const std::vector<Override>& overrides) {
   std::error_code error;
@@ -81,7 +93,7 @@ Case read_case(const std::string& path, const std::vector<Override>& overrides) 
 }
 
 double key_value(const Case& c, const std::string& key) {
-  Node root = document_of(c.text, c.file, c.overrides);
+  Node root = *c.document;
   try {
     std::optional<double> common;
     for (const KeyTarget& target : find_targets(root, key)) {
@@ -98,7 +110,7 @@ double key_value(const Case& c, const std::string& key) {
 }
 
 std::string key_unit(const Case& c, const std::string& key) {
-  Node root = document_of(c.text, c.file, c.overrides);
+  Node root = *c.document;
   try {
     return find_targets(root, key).front().field->unit.text;
   } catch (const KeyError& error) {
@@ -107,20 +119,34 @@ std::string key_unit(const Case& c, const std::string& key) {
 }
 
 Case with_values(const Case& c, const std::vector<std::pair<std::string, double>>& values) {
-  std::vector<Override> overrides = c.overrides;
+  Case changed;
+  changed.directory = c.directory;
+  changed.file = c.file;
+  changed.text = c.text;
+  changed.overrides = c.overrides;
+  Node root = *c.document;
   for (const auto& [key, value] : values) {
     if (!std::isfinite(value))
       throw CaseError(fmt::format("{}: {}: must be a finite number, got {}", c.file, key, value));
-    overrides.erase(
-        std::remove_if(overrides.begin(), overrides.end(), [k = key](const Override& o) { return o.key == k; }),
-        overrides.end());
-    overrides.push_back({key, written(value)});
+    const Override setting{key, written(value)};
+    std::erase_if(changed.overrides, [&](const Override& o) { return o.key == setting.key; });
+    changed.overrides.push_back(setting);
+    Node number;
+    number.kind = Node::Kind::number;
+    number.number = value;
+    number.position = {override_origin(setting), 1, 1};
+    try {
+      set_key(root, key, number);
+    } catch (const KeyError& error) {
+      throw CaseError(number.position.origin + ": " + error.what());
+    }
   }
-  return read_case_text(c.text, c.file, c.directory, overrides);
+  read_document(std::move(root), changed);
+  return changed;
 }
 
 CaseError located(const Case& c, const SpecificationError& error) {
-  const Node root = document_of(c.text, c.file, c.overrides);
+  const Node& root = *c.document;
   const std::string& entry = error.entry;
   Position position = position_of_key(root, entry, error.field);
   const std::string prefix = entry + (error.field.empty() ? "" : "." + error.field) + ": ";

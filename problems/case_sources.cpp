@@ -84,7 +84,7 @@ std::vector<CaseSource> case_sources(const Case& c) {
     if (leaf.line > 0 && static_cast<std::size_t>(leaf.line) <= lines.size())
       remarks[leaf.key] = remark_in(lines[static_cast<std::size_t>(leaf.line) - 1]);
   std::vector<CaseSource> sources;
-  for (const Leaf& leaf : leaves_of(c.resolved, c.file)) {
+  for (const Leaf& leaf : leaves_of(resolved_text(c), c.file)) {
     std::string remark = remarks[leaf.key];
     for (const Override& o : c.overrides)
       if (means(o.key, leaf.key)) remark = "set on top of the case file";
@@ -94,9 +94,9 @@ std::vector<CaseSource> case_sources(const Case& c) {
 }
 
 std::string text_with_remarks(const Case& c) {
-  std::vector<std::string> lines = lines_of(c.resolved);
+  std::vector<std::string> lines = lines_of(resolved_text(c));
   const std::vector<CaseSource> sources = case_sources(c);
-  const std::vector<Leaf> leaves = leaves_of(c.resolved, c.file);  // the same values in the same order
+  const std::vector<Leaf> leaves = leaves_of(resolved_text(c), c.file);  // the same values in the same order
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const std::size_t line = static_cast<std::size_t>(leaves[i].line);
     if (sources[i].remark.empty() || line == 0 || line > lines.size()) continue;

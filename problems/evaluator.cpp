@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <mutex>
 #include <numeric>
 
 #include "problems/scenarios.h"
@@ -24,8 +25,10 @@ std::vector<ConstraintSpec> constraints_of(const Case& c) {
     if (!limit.hard) continue;
     const MetricDefinition* metric = metric_definition(limit.metric);
     if (!metric) throw CaseError("limits." + limit.metric + ": there is no such metric");
-    if (limit.max) constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->quantity), true, limit.share});
-    if (limit.min) constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->quantity), false, limit.share});
+    if (limit.max)
+      constraints.push_back({limit.metric, *limit.max, limit_scale(*limit.max, metric->quantity), true, limit.share});
+    if (limit.min)
+      constraints.push_back({limit.metric, *limit.min, limit_scale(*limit.min, metric->quantity), false, limit.share});
   }
   return constraints;
 }
@@ -64,7 +67,8 @@ Evaluator::Evaluator(Case c, std::vector<ScenarioSpec> scenarios, const std::ato
       stop_(stop),
       scenarios_(std::move(scenarios)),
       constraints_(constraints_of(case_)),
-      metric_names_(stillhook::metric_names(case_.specification)) {
+      metric_names_(stillhook::metric_names(case_.specification)),
+      bases_(std::make_shared<Bases>(scenarios_.size())) {
   check_objective(case_);
   for (const ObjectiveTerm& term : case_.plan.objective) smooth_names_.push_back(term.metric);
   for (const ConstraintSpec& constraint : constraints_) smooth_names_.push_back(constraint.metric);
@@ -79,12 +83,47 @@ Case Evaluator::case_at(const Eigen::VectorXd& x) const {
   return with_values(case_, values);
 }
 
-ScenarioOutcome Evaluator::run_scenario(const Case& c, const ScenarioSpec& scenario) const {
+struct Evaluator::Bases {
+  struct Base {
+    std::once_flag once;
+    std::shared_ptr<const Model> model;  // null if the base cannot be built: every lift is then built for itself
+    Operation operation;
+  };
+  explicit Bases(std::size_t scenarios) : all(scenarios) {}
+  std::vector<Base> all;
+};
+
+Evaluator::Lift Evaluator::lift_of(const Case& c, std::size_t scenario) const {
+  Specification specification = in_scenario(c.specification, scenarios_[scenario]);
+  const bool timing_alone = std::all_of(case_.plan.variables.begin(), case_.plan.variables.end(),
+                                        [](const VariableSpec& v) { return v.key.starts_with("operation.phases."); }) &&
+                            same_poses(case_.specification.operation, specification.operation);
+  if (timing_alone) {
+    Bases::Base& base = bases_->all[scenario];
+    std::call_once(base.once, [&] {
+      try {
+        auto model = std::make_shared<const Model>(build_model(in_scenario(case_.specification, scenarios_[scenario])));
+        base.operation = build_operation(*model);
+        base.model = std::move(model);
+      } catch (const SpecificationError&) {  // the point's own fault is told, should it have the same
+      }
+    });
+    if (base.model) {
+      Operation operation = retimed_operation(*base.model, specification.operation, base.operation);
+      return {base.model, std::move(operation), std::move(specification)};
+    }
+  }
+  auto model = std::make_shared<const Model>(build_model(specification));
+  Operation operation = build_operation(*model);
+  return {std::move(model), std::move(operation), std::move(specification)};
+}
+
+ScenarioOutcome Evaluator::run_scenario(const Case& c, std::size_t scenario) const {
   ScenarioOutcome outcome;
   outcome.metrics.assign(metric_names_.size(), kNaN);
   try {
-    const Model model = build_model(in_scenario(c.specification, scenario));
-    Operation operation = build_operation(model);
+    const Lift lift = lift_of(c, scenario);
+    Operation operation = lift.operation;
     RunOptions options;
     SystemState start;
     if (const OperationPart& part = case_.plan.part; !part.whole()) {
@@ -97,7 +136,7 @@ ScenarioOutcome Evaluator::run_scenario(const Case& c, const ScenarioSpec& scena
       end = t_end;
       return !(stop_ && stop_->load());
     };
-    note_run(model.specification(), simulate(model, operation, options), end, outcome);
+    note_run(lift.specification, simulate(*lift.model, operation, options), end, outcome);
   } catch (const SpecificationError& error) {
     outcome.message = error.what();
   } catch (const CaseError& error) {
@@ -134,7 +173,7 @@ Evaluation Evaluator::evaluate(const Eigen::VectorXd& x) const {
 #pragma omp parallel for schedule(dynamic, 1) if (!omp_in_parallel() && scenarios_.size() > 1)
   for (std::size_t i = 0; i < scenarios_.size(); ++i) {
     try {
-      outcomes[i] = run_scenario(changed, scenarios_[i]);
+      outcomes[i] = run_scenario(changed, i);
     } catch (...) {
       errors[i] = std::current_exception();
     }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "problems/search/problem.h"
 #include "results/metrics.h"
 #include "results/smooth_metrics.h"
+#include "sim/operation.h"
 
 namespace stillhook {
 
@@ -122,7 +124,16 @@ class Evaluator {
   void note_run(const Specification& specification, const Trajectory& run, double planned,
                 ScenarioOutcome& outcome) const;
 
-  ScenarioOutcome run_scenario(const Case& c, const ScenarioSpec& scenario) const;
+  /// A scenario's lift: what it is simulated as, and with which numbers it is judged.
+  struct Lift {
+    std::shared_ptr<const Model> model;
+    Operation operation;
+    Specification specification;
+  };
+  struct Bases;  // of the scenarios, with the variables as they stand in the case; each built when it is first needed
+  /// Where the variables change timing alone, the base's model and poses are taken over.
+  Lift lift_of(const Case& c, std::size_t scenario) const;
+  ScenarioOutcome run_scenario(const Case& c, std::size_t scenario) const;
   /// How much each scenario counts in the aggregated objective; they sum to one.
   Eigen::VectorXd scenario_shares(const Eigen::VectorXd& objectives) const;
   double constraint_of(const ScenarioOutcome& outcome, const ConstraintSpec& constraint) const;
@@ -134,6 +145,7 @@ class Evaluator {
   std::vector<std::string> metric_names_;
   std::vector<std::string> smooth_names_;  // metrics of the objective's terms, then of the constraints
   Eigen::VectorXd baseline_;
+  std::shared_ptr<Bases> bases_;
 };
 
 /// The size that makes a violation comparable with others: |limit|, or one step of the unit if that is zero.

@@ -5,6 +5,7 @@
 
 #include "results/files.h"
 #include "results/json_number.h"
+#include "results/summary_envelope.h"
 
 namespace stillhook {
 namespace {
@@ -133,12 +134,7 @@ Summary summarise(const Specification& specification, const Trajectory& trajecto
 }
 
 std::string summary_json(const Summary& summary) {
-  Json document;
-  document["schema_version"] = Summary::kSchemaVersion;
-  document["program"] = "stillhook " + summary.program_version;
-  document["date"] = summary.date;
-  document["case"] = summary.case_name;
-  document["verb"] = summary.verb;
+  Json document = summary_envelope(summary.program_version, summary.date, summary.case_name, summary.verb);
   document["sea"] = summary.sea;
   document["status"] = status_name(summary.status);
   document["message"] = summary.message;
@@ -154,8 +150,7 @@ std::string summary_json(const Summary& summary) {
   add_search(summary, document);
   if (summary.certificate) document["certificate"] = certificate_json(*summary.certificate);
   if (summary.pareto) document["pareto"] = pareto_json(*summary.pareto);
-  // Names come from the case file; bytes that are not UTF-8 are replaced rather than thrown at the user at the end.
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return summary_text(document);
 }
 
 void write_summary(const Summary& summary, const std::string& path) { write_file(path, summary_json(summary)); }

@@ -1,4 +1,4 @@
-// The verbs of the command line, one file each, and what they share.
+// What the verbs of the command line share: options, exit codes, the case that they read.
 #pragma once
 
 #include <optional>
@@ -37,61 +37,15 @@ struct CommonOptions {
   std::string out;                // empty = runs/<case>-<verb>
   bool force = false, json = false, quiet = false;
   std::optional<int> seed;
+  int threads = 0;  // 0 = all cores
+  std::string colour = "auto";
 };
-
-struct CheckArguments {
-  std::string draw;  // FILE.svg or a folder; empty = no drawing
-};
-
-struct PlanArguments {
-  std::optional<int> evaluations;
-  std::optional<double> time_budget;  // s
-  bool resume = false;
-};
-
-struct HydroArguments {
-  bool converge = false;
-  std::vector<double> headings;  // deg, of the response amplitude operators; empty = usual ones
-};
-
-struct SchemaArguments {
-  bool reference = false, metrics = false;  // Markdown tables instead of the JSON Schema
-};
-
-struct ExportArguments {
-  bool csv = false, xlsx = false;     // one of them
-  std::vector<std::string> channels;  // patterns; empty = all
-};
-
-struct FitArguments {
-  std::vector<std::string> measured;  // FILE or RECORD=FILE
-};
-
-struct TuneArguments {
-  std::optional<int> evaluations, map;
-  std::string phase, pose;  // empty: as the case says
-  std::optional<double> hold;
-  bool schedule = false;
-};
-
-int run_check(const CommonOptions& options, const CheckArguments& arguments);
-int run_hydro(const CommonOptions& options, const HydroArguments& arguments);
-int run_simulate(const CommonOptions& options);
-int run_plan(const CommonOptions& options, const PlanArguments& arguments);
-int run_tune(const CommonOptions& options, const TuneArguments& arguments);
-int run_fit(const CommonOptions& options, const FitArguments& arguments);
-int run_report(const CommonOptions& options);
-int run_schema(const SchemaArguments& arguments);
-int run_export(const CommonOptions& options, const ExportArguments& arguments);
 
 /// The case file with every --set, and what else the verb sets on top. Throws CaseError and UsageError.
 Case load_case(const CommonOptions& options, const std::vector<Override>& more = {});
 
 /// The same with `text` in place of what the case file holds.
 Case load_case_text(const CommonOptions& options, const std::string& text, const std::vector<Override>& more = {});
-
-/// The folder to write into: --out, or the default one.
-std::string folder_path(const CommonOptions& options, const Case& c, const std::string& verb);
 
 /// The comment that a case file opens with, without its '#': the problem in words. Empty if there is none.
 std::string statement_of(const std::string& case_file);

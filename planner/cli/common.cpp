@@ -32,10 +32,6 @@ Case load_case_text(const CommonOptions& options, const std::string& text, const
   return read_case_text(text, options.input, folder.empty() ? "." : folder, overrides_of(options, more));
 }
 
-std::string folder_path(const CommonOptions& options, const Case& c, const std::string& verb) {
-  return options.out.empty() ? default_folder(c, verb) : options.out;
-}
-
 std::string statement_of(const std::string& case_file) {
   std::ifstream in(case_file);
   std::string statement, line;

@@ -49,20 +49,6 @@ std::string verb_section(const CommandVerb& verb) {
   return out;
 }
 
-constexpr const char* kFiles[][2] = {
-    {"runs/<case>-<verb>/",
-     "The folder of a run, unless --out names another. It is never overwritten without --force."},
-    {"case.toml", "The case as it was used: the file with every --set. A case that any verb takes."},
-    {"summary.json",
-     "Status, metrics, limits; objective and variables of a search. Its presence says that the run is complete."},
-    {"history.nc",
-     "Every channel over time, phases, contacts: NetCDF-4 following CF-1.8. Written while the run goes on; what a "
-     "killed run "
-     "leaves can be read up to its last 100 s and says that it is incomplete."},
-    {"report.html", "The report, one file that a browser opens without a network."},
-    {"plan.toml", "The case with the plan in it, from plan."},
-    {"evaluations.sqlite", "Every evaluation of a search, from which --resume goes on."}};
-
 constexpr const char* kEnvironment[][2] = {
     {"NO_COLOR", "When set and not empty, no colours unless --color says always."},
     {"STILLHOOK_CACHE", "Folder for computed hydrodynamic coefficients, instead of the user's cache folder."}};
@@ -100,7 +86,10 @@ std::string manual_page(const CommandTree& tree, const std::string& version) {
     for (const auto& [head, text] : entries) out += entry(bold(head), text);
   };
   add("ENVIRONMENT", kEnvironment);
-  add("FILES", kFiles);
+  out += ".SH FILES\n" +
+         entry(bold("runs/<case>-<verb>/"),
+               "The folder of a run, unless --out names another. It is never overwritten without --force.");
+  for (const RunFile& file : run_files()) out += entry(bold(file.name), file.meaning);
   add("EXAMPLES", kExamples);
   return out;
 }

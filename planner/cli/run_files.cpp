@@ -2,7 +2,7 @@
 
 #include "planner/cli/commands.h"
 #include "planner/document_control.h"
-#include "planner/static_tables.h"
+#include "planner/verbs/check/static_tables.h"
 #include "planner/version.h"
 #include "problems/case_sources.h"
 #include "results/archive.h"
@@ -24,13 +24,12 @@ void write_run_report(const RunFolder& folder, const RunResult& run, const Prepa
                       const std::vector<ReportTable>& tables) {
   const std::vector<StaticPose> poses = solve_poses(prepared.model);
   std::vector<ReportTable> all = tables;
-  for (ReportTable& table : static_tables(prepared.model, prepared.operation))
-    all.push_back(std::move(table));
+  for (ReportTable& table : static_tables(prepared.model, prepared.operation)) all.push_back(std::move(table));
   std::vector<BasisEntry> basis;
   for (const CaseSource& source : case_sources(c)) basis.push_back({source.key, source.value, source.remark});
   const ReportData data{c.title.empty() ? c.name : c.title,
                         statement,
-                        c.resolved,
+                        resolved_text(c),
                         kVersion,
                         run.specification,
                         run.trajectory,

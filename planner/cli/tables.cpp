@@ -30,8 +30,9 @@ std::string metric_text(const std::string& name) {
 std::string terms_text(const SearchSection& s) {
   TextTable table({"term", "unit", "weight / scale", "baseline", "plan", "baseline part", "plan part"});
   for (const SearchSection::Term& t : s.terms)
-    table.add({t.metric, unit_text(t.unit), fmt::format("{:g} / {:g}", t.weight, t.scale), short_number(t.baseline_value),
-               short_number(t.plan_value), cell(t.baseline_contribution, 4), cell(t.plan_contribution, 4)});
+    table.add({t.metric, unit_text(t.unit), fmt::format("{:g} / {:g}", t.weight, t.scale),
+               short_number(t.baseline_value), short_number(t.plan_value), cell(t.baseline_contribution, 4),
+               cell(t.plan_contribution, 4)});
   table.add({"objective", "", "", "", "", cell(s.baseline_objective, 4), cell(s.plan_objective, 4)});
   return "Objective: the weighted sum of its terms, over the scenarios as plan.aggregate says\n" + table.text();
 }
@@ -99,8 +100,8 @@ std::string limits_text(const std::vector<LimitCheck>& limits) {
   if (limits.empty()) return "The case has no limits.\n";
   TextTable table({"limit", "unit", "bound", "value", "margin", "verdict", "time s", "phase"});
   for (const LimitCheck& c : limits)
-    table.add({c.metric, unit_text(c.unit), fmt::format("{} {:g}", c.is_max ? "<=" : ">=", c.limit), short_number(c.value),
-               short_number(c.margin), verdict(c), cell(c.time, 1), c.phase});
+    table.add({c.metric, unit_text(c.unit), fmt::format("{} {:g}", c.is_max ? "<=" : ">=", c.limit),
+               short_number(c.value), short_number(c.margin), verdict(c), cell(c.time, 1), c.phase});
   return "Limits\n" + table.text();
 }
 

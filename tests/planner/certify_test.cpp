@@ -1,5 +1,5 @@
 // Statistics of a certification against values from tables.
-#include "planner/certify.h"
+#include "planner/verbs/plan/certify.h"
 
 #include <catch2/catch.hpp>
 

@@ -10,7 +10,7 @@
 #include <regex>
 #include <thread>
 
-#include "planner/plan.h"
+#include "planner/verbs/plan/plan.h"
 #include "results/sha256.h"
 #include "tests/planner/program.h"
 

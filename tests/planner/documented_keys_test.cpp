@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "planner/fit_report.h"
+#include "planner/verbs/fit/fit_report.h"
 #include "tests/planner/program.h"
 
 using namespace stillhook;

@@ -1,5 +1,5 @@
 // The table of hinged bodies against hand calculation.
-#include "planner/hinge_table.h"
+#include "planner/verbs/check/hinge_table.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

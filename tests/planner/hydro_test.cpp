@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "planner/hydro_convergence.h"
+#include "planner/verbs/hydro/hydro_convergence.h"
 #include "sim/hull/database.h"
 #include "tests/planner/documented_keys.h"
 #include "tests/planner/program.h"

@@ -1,7 +1,7 @@
 // One verdict for a plan over several scenarios: search, tables, summary and page by the same rule.
 #include <nlohmann/json.hpp>
 
-#include "planner/plan_results.h"
+#include "planner/verbs/plan/plan_results.h"
 #include "problems/case_reader.h"
 #include "sim/spatial/constants.h"
 #include "tests/planner/program.h"

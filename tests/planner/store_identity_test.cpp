@@ -1,7 +1,7 @@
 // Which changes of a case make the evaluations of its search worthless, and which do not.
 #include <catch2/catch.hpp>
 
-#include "planner/plan.h"
+#include "planner/verbs/plan/plan.h"
 
 using namespace stillhook;
 

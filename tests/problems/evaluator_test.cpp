@@ -9,13 +9,14 @@
 #include <thread>
 
 #include "problems/scenarios.h"
+#include "sim/simulate.h"
+#include "sim/spatial/constants.h"
 
 using namespace stillhook;
 
 namespace {
 
 const std::string kCase = std::string(STILLHOOK_SOURCE_DIR) + "/tests/planner/cases/small_lift.toml";
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Case small_lift(const std::vector<Override>& overrides = {}) { return read_case(kCase, overrides); }
 
@@ -233,4 +234,26 @@ TEST_CASE("a stop flag interrupts the evaluation under way") {
   const Evaluation e = evaluator.evaluate(evaluator.baseline());
   CHECK(e.interrupted);
   CHECK_FALSE(e.usable);
+}
+
+TEST_CASE("where the variables are timing alone the lift that is taken over gives the bits of one built for itself") {
+  Case c = small_lift();
+  std::erase_if(c.plan.variables, [](const VariableSpec& v) { return !v.key.starts_with("operation.phases."); });
+  REQUIRE(c.plan.variables.size() == 1);
+  const Evaluator evaluator(c);
+  Eigen::VectorXd x = evaluator.baseline();
+  x[0] = 7.3;
+  const std::vector<ScenarioOutcome> outcomes = evaluator.outcomes(evaluator.evaluate(x));
+  const std::vector<ScenarioSpec>& scenarios = evaluator.scenarios();
+  REQUIRE(outcomes.size() == scenarios.size());
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const Specification specification = in_scenario(evaluator.case_at(x).specification, scenarios[i]);
+    const Model model = build_model(specification);
+    const Metrics metrics = compute_metrics(specification, simulate(model, build_operation(model)));
+    for (std::size_t k = 0; k < evaluator.metric_names().size(); ++k) {
+      CAPTURE(evaluator.metric_names()[k]);
+      const double alone = metrics.value(evaluator.metric_names()[k]), taken_over = outcomes[i].metrics[k];
+      CHECK((alone == taken_over || (std::isnan(alone) && std::isnan(taken_over))));
+    }
+  }
 }

@@ -18,7 +18,7 @@ set(wrapped
   "<hdf5|^(sim/hull/hdf5_file|sim/guarded_read|results/netcdf_file)\\.cpp$|HDF5"
   "<xlsxwriter|^results/export_xlsx\\.cpp$|libxlsxwriter"
   "<CLI/|^planner/cli/(command_line|command_tree|usage_fault)\\.cpp$|CLI11"
-  "<spdlog/|^planner/cli/|spdlog"
+  "<spdlog/|^planner/(cli/|verbs/[a-z]+/verb\\.cpp)|spdlog"
   "<nlohmann/|^(results|problems|planner)/|nlohmann-json")
 
 foreach(room IN LISTS rooms)
