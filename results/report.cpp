@@ -133,15 +133,17 @@ std::string report_html(const ReportData& data) {
 
   const std::string plain_title = data.title.empty() ? data.specification.name : data.title;
   const std::string title = escape_html(plain_title);
+  std::string conditions = sea_sentence(data.specification.sea, data.north);
+  if (const std::string wind = wind_sentence(data.specification.wind, data.north); !wind.empty())
+    conditions += ". " + wind;
   std::string page = fmt::format(
       "{}<body><header><h1>{}</h1>{}<p class=\"muted\">{}</p></header>\n<main><section id=\"overview\" "
       "aria-label=\"Overview\"><div class=\"judgement\">{}</div>{}</section>\n<nav "
       "aria-label=\"Contents\">{}</nav>{}</main>\n<footer>stillhook {} · {} · {}{}</footer>",
       page_head(title, data.program_version, replay, control_style(data.control, plain_title, data.program_version)),
-      title, control_html(data.control, data.program_version),
-      escape_html(sea_sentence(data.specification.sea, data.north)), verdict_part(data) + warnings(data),
-      replay_part(data, replay), nav, body, escape_html(data.program_version), escape_html(data.specification.name),
-      cost(data), replay ? licences() : "");
+      title, control_html(data.control, data.program_version), escape_html(conditions),
+      verdict_part(data) + warnings(data), replay_part(data, replay), nav, body, escape_html(data.program_version),
+      escape_html(data.specification.name), cost(data), replay ? licences() : "");
   if (replay) {
     page += "<script type=\"text/plain\" id=\"replay-data\">" + replay_text(data, view, scene, figures) +
             "</script>\n<script>";

@@ -70,4 +70,7 @@ std::string search_part(const SearchSection& search);              // report_sea
 /// With the compass direction that the waves come from, where true north is known. report_procedure.cpp
 std::string sea_sentence(const SeaSpec& sea, std::optional<double> north = {});
 
+/// The wind in words; empty without one.
+std::string wind_sentence(const WindSpec& wind, std::optional<double> north = {});
+
 }  // namespace stillhook

@@ -213,7 +213,7 @@ std::string gear_sentences(const Specification& s) {
 std::string sea_sentence(const SeaSpec& sea, std::optional<double> north) {
   const auto state =
       std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
-  if (state == sea.states.end()) return "Sea state: " + sea.active;
+  if (state == sea.states.end()) return "Calm water";
   std::string towards =
       fmt::format("travelling towards {}° from +x, counter-clockwise", fixed_number(degrees(state->heading), 0));
   if (north) towards += fmt::format(", that is from {}° true", fixed_number(compass_from(state->heading, *north), 0));
@@ -233,6 +233,15 @@ std::string sea_sentence(const SeaSpec& sea, std::optional<double> north) {
                      fixed_number(state->significant_height, 2), fixed_number(state->peak_period, 1),
                      fixed_number(2.0 * std::numbers::pi / state->peak_period, 3), towards, state->seed,
                      state->spreading > 0.0 ? ", short-crested" : ", long-crested");
+}
+
+std::string wind_sentence(const WindSpec& wind, std::optional<double> north) {
+  if (!wind.blows()) return {};
+  std::string text =
+      fmt::format("Wind of {} m/s (hourly mean at 10 m), steady, blowing towards {}° from +x, counter-clockwise",
+                  fixed_number(wind.speed, 1), fixed_number(degrees(wind.towards()), 0));
+  if (north) text += fmt::format(", that is from {}° true", fixed_number(compass_from(wind.towards(), *north), 0));
+  return text;
 }
 
 std::string procedure_part(const ReportData& data, const RunView& view) {
@@ -272,8 +281,14 @@ std::string poses_part(const ReportData& data, const Scene& scene) {
 
 std::string assumptions_part(const ReportData& data) {
   const Specification& s = data.specification;
-  std::string out = "<ul><li>" + escape_html(sea_sentence(s.sea, data.north)) + "; the waves grow over the first " +
-                    fixed_number(s.sea.ramp, 0) + " s.</li>";
+  const bool waves = std::any_of(s.sea.states.begin(), s.sea.states.end(), [&](const SeaStateSpec& state) {
+    return state.name == s.sea.active && state.type != SeaStateSpec::Type::calm;
+  });
+  std::string out = "<ul><li>" + escape_html(sea_sentence(s.sea, data.north));
+  if (waves) out += "; the waves grow over the first " + fixed_number(s.sea.ramp, 0) + " s";
+  out += ".</li>";
+  if (const std::string wind = wind_sentence(s.wind, data.north); !wind.empty())
+    out += "<li>" + escape_html(wind) + "; static poses are those in the wind.</li>";
   out += gear_sentences(s);
   out += fmt::format(
       "<li>Implicit HHT integration, α = {}, time step {} s; samples every {} s. Extremes of a single quantity are "
