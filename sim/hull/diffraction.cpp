@@ -7,6 +7,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "sim/sea/wave_sums.h"
+
 namespace stillhook {
 namespace {
 
@@ -187,11 +189,7 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
     }
     if (short_wave) in_limit += a2;
     const Eigen::VectorXcd X = wave.amplitude * table.at(wave.frequency, heading);
-    for (std::size_t hull = 0; hull < hulls_.size(); ++hull) {
-      const Vector6 real = X.segment<6>(6 * hull).real(), imag = X.segment<6>(6 * hull).imag();
-      hulls_[hull].push_back({real, imag, wave.wavenumber * wave.cos_heading, wave.wavenumber * wave.sin_heading,
-                              wave.frequency, wave.phase});
-    }
+    for (std::size_t hull = 0; hull < hulls_.size(); ++hull) hulls_[hull].add(wave, X.segment<6>(6 * hull));
   }
   left_out_ = energy > 0.0 ? beyond / energy : 0.0;
   in_limit_ = energy > 0.0 ? in_limit / energy : 0.0;
@@ -202,12 +200,24 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
                                  : unresolved_sea(left_out_, too_short, table.highest_frequency(), negligible_energy));
 }
 
+void Diffraction::Hull::add(const WaveComponent& c, const Eigen::VectorXcd& X) {
+  constexpr std::size_t B = kPhaseBlock;
+  const std::size_t block = waves / B, lane = waves % B;
+  wave.resize((block + 1) * 4 * B, 0.0);
+  force.resize((block + 1) * 12 * B, 0.0);
+  const double of_wave[4] = {c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading, c.frequency, c.phase};
+  for (std::size_t i = 0; i < 4; ++i) wave[(4 * block + i) * B + lane] = of_wave[i];
+  for (std::size_t m = 0; m < 6; ++m) {
+    const std::complex<double> x = X[static_cast<Eigen::Index>(m)];
+    force[(12 * block + 2 * m) * B + lane] = x.real();
+    force[(12 * block + 2 * m + 1) * B + lane] = x.imag();
+  }
+  ++waves;
+}
+
 void Diffraction::scale(std::span<const double> factors) {
   for (std::size_t hull = 0; hull < hulls_.size(); ++hull)
-    for (Component& component : hulls_[hull]) {
-      component.real *= factors[hull];
-      component.imag *= factors[hull];
-    }
+    for (double& force : hulls_[hull].force) force *= factors[hull];
 }
 
 void Diffraction::evaluate(int hull, double t, double x, double y, Vector6& F, Eigen::Matrix<double, 6, 2>& dF) const {
@@ -215,16 +225,11 @@ void Diffraction::evaluate(int hull, double t, double x, double y, Vector6& F, E
   dF.setZero();
   const double ramp = waves_->ramp(t);
   if (ramp == 0.0) return;
-  for (const Component& wave : hulls_[hull]) {
-    const double angle = wave.kx * x + wave.ky * y - wave.frequency * t + wave.phase;
-    const double c = std::cos(angle), s = std::sin(angle);
-    const Vector6 quarter_turn = -s * wave.real - c * wave.imag;
-    F += c * wave.real - s * wave.imag;
-    dF.col(0) += wave.kx * quarter_turn;
-    dF.col(1) += wave.ky * quarter_turn;
-  }
-  F *= ramp;
-  dF *= ramp;
+  const Hull& of = hulls_[static_cast<std::size_t>(hull)];
+  Eigen::Matrix<double, 6, 3> sums;
+  sum_force(of.wave.data(), of.force.data(), static_cast<int>(of.wave.size() / (4 * kPhaseBlock)), x, y, t, sums.data());
+  F = ramp * sums.col(0);
+  dF = ramp * sums.rightCols<2>();
 }
 
 }  // namespace stillhook

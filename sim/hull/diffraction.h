@@ -96,13 +96,15 @@ class Diffraction {
   void evaluate(int hull, double t, double x, double y, Vector6& F, Eigen::Matrix<double, 6, 2>& dF) const;
 
  private:
-  struct Component {
-    Vector6 real, imag;  // a X_D
-    double kx, ky, frequency, phase;
-    bool operator==(const Component&) const = default;
+  // The waves that act on a hull and their a X_D, as sim/sea/wave_sums.h wants them.
+  struct Hull {
+    std::size_t waves = 0;
+    std::vector<double> wave, force;
+    void add(const WaveComponent& component, const Eigen::VectorXcd& X);
+    bool operator==(const Hull&) const = default;
   };
   std::shared_ptr<const WaveField> waves_;
-  std::vector<std::vector<Component>> hulls_;
+  std::vector<Hull> hulls_;
   double left_out_ = 0.0, in_limit_ = 0.0;
 };
 

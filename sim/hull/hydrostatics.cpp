@@ -28,12 +28,20 @@ struct HeadIntegral {
   Vector3 r_cross_n() const { return {rn(1, 2) - rn(2, 1), rn(2, 0) - rn(0, 2), rn(0, 1) - rn(1, 0)}; }
 };
 
-// No crest is higher and no trough deeper.
-double largest_elevation(const WaveField& waves) {
-  double sum = 0.0;
-  for (const WaveComponent& c : waves.components()) sum += std::abs(c.amplitude);
-  return sum;
-}
+// No crest is higher and no trough deeper than `ever`; hardly one than `expected`, six standard deviations of the sea.
+struct SurfaceReach {
+  explicit SurfaceReach(const WaveField& waves) {
+    double variance = 0.0;
+    for (const WaveComponent& c : waves.components()) {
+      ever += std::abs(c.amplitude);
+      variance += 0.5 * c.amplitude * c.amplitude;
+    }
+    expected = std::min(ever, 6.0 * std::sqrt(variance));
+  }
+  /// Whether vertices that are out of the expected reach of the surface may be left out.
+  bool enough(double highest) const { return expected == ever || highest < 0.8 * expected; }
+  double ever = 0.0, expected = 0.0;  // m
+};
 
 class Hydrostatics final : public ForceElement {
  public:
@@ -52,7 +60,7 @@ class Hydrostatics final : public ForceElement {
     weights_ = head_weights(panels_, r_);
     coordinates_.resize(static_cast<Eigen::Index>(r_.size()), 3);
     for (std::size_t i = 0; i < r_.size(); ++i) coordinates_.row(static_cast<Eigen::Index>(i)) = r_[i].transpose();
-    largest_elevation_ = largest_elevation(*waves_);
+    surface_.emplace(*waves_);
     window_.emplace(waves_, r_.size(), coordinates_.rowwise().norm().maxCoeff());
   }
 
@@ -68,17 +76,14 @@ class Hydrostatics final : public ForceElement {
                              Eigen::Ref<MatrixX>) const override {
     return true;
   }
-  void start(const Instant&, Memory m) const override {
-    if (window_->used()) window_->start(m.state);
-  }
+  void start(const Instant&, Memory m) const override { window_->start(m.state); }
   void begin_step(const Instant& before, double h, Memory m) const override {
-    if (window_->used()) window_->begin_step(before.t, h, before.body[body_], m.state);
+    window_->begin_step(before.t, h, before.body[body_], m.state);
   }
 
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override {
     if (h == 0.0) m.state = {};  // statics: the pose may be anywhere
-    Samples s = reachable(now, m);
-    sample(now, model_, false, m, s);
+    const Samples s = sampled(now, model_, false, m);
     const Load load = load_of(integrate(s, now), now.body[body_].R_WB);
     out.add(body_, now.body[body_].R_WB * load.F_B, load.M_B);
   }
@@ -92,8 +97,7 @@ class Hydrostatics final : public ForceElement {
 
   void measure(const Instant& now, Memory m, std::span<double> out) const override {
     const Matrix3& R = now.body[body_].R_WB;
-    Samples s = reachable(now, m);
-    sample(now, model_, false, m, s);
+    const Samples s = sampled(now, model_, false, m);
     HeadIntegral I = integrate(s, now);
     out[0] = R.row(2).dot(load_of(I, R).F_B);
     if (model_ == FroudeKrylov::pressure) {
@@ -106,13 +110,13 @@ class Hydrostatics final : public ForceElement {
  private:
   // Views into scratch, one value a vertex; the last strips and their vertices are left out where they are dry.
   struct Samples {
-    Samples(Memory m, int strip_count, std::size_t n) : strips(strip_count) {
-      std::span<double>* all[] = {&x, &y, &z, &depth, &depth_x, &depth_y, &head, &head_x, &head_y, &head_z};
+    Samples(Memory m, double reach, int strip_count, std::size_t n) : surface(reach), strips(strip_count) {
+      std::span<double>* all[] = {&depth, &depth_x, &depth_y, &head, &head_x, &head_y, &head_z};
       for (std::size_t i = 0; i < std::size(all); ++i) *all[i] = m.scratch.subspan(i * n, n);
       head_pose = m.scratch.subspan(std::size(all) * n, 6 * n);
     }
+    double surface;  // m, up and down: strips and panels beyond are dry or wet
     int strips;
-    std::span<double> x, y, z;                       // m, in W
     std::span<double> depth, depth_x, depth_y;       // m, zeta - z; its derivative by z is -1
     std::span<double> head, head_x, head_y, head_z;  // the head is zero where the depth is negative
     std::span<double> head_pose;                     // of the head by xi: n x 6, a coordinate after the other
@@ -121,12 +125,13 @@ class Hydrostatics final : public ForceElement {
     Vector3 F_B, M_B;  // N in B, N m about C in B
   };
 
-  Samples reachable(const Instant& now, Memory m) const;
-  int sample_size() const { return 16 * static_cast<int>(r_.size()); }
+  Samples reachable(const Instant& now, double surface, Memory m) const;
+  Samples sampled(const Instant& now, FroudeKrylov model, bool gradients, Memory m) const;
+  int sample_size() const { return 13 * static_cast<int>(r_.size()); }
   std::span<const Panel> panels(const Samples& s) const {
     return {panels_.data(), static_cast<std::size_t>(s.strips > 0 ? strips_[s.strips - 1].end_panel : 0)};
   }
-  void sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const;
+  double sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const;
   HeadIntegral integrate(const Samples& s, const Instant& now) const;
   template <typename Visitor>
   void for_cut_panels(const Samples& s, const Instant& now, Visitor visit) const;
@@ -151,52 +156,46 @@ class Hydrostatics final : public ForceElement {
   std::vector<PanelStrip> strips_;
   MatrixX weights_;                                       // see head_weights
   Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates_;  // r_, an axis a column
-  double largest_elevation_ = 0.0;                        // m
+  std::optional<SurfaceReach> surface_;
   std::optional<WaveWindow> window_;
 };
 
-Hydrostatics::Samples Hydrostatics::reachable(const Instant& now, Memory m) const {
+Hydrostatics::Samples Hydrostatics::reachable(const Instant& now, double surface, Memory m) const {
   const Vector3 up = now.body[body_].R_WB.row(2);
   const double z = now.body[body_].p_WC.z();
   int strips = static_cast<int>(strips_.size());
   for (; strips > 0; --strips) {
     const PanelStrip& s = strips_[strips - 1];
-    if (z + up.dot(s.centre) - up.cwiseAbs().dot(s.half) <= largest_elevation_) break;
+    if (z + up.dot(s.centre) - up.cwiseAbs().dot(s.half) <= surface) break;
   }
-  return {m, strips, static_cast<std::size_t>(strips > 0 ? strips_[strips - 1].vertices : 0)};
+  return {m, surface, strips, static_cast<std::size_t>(strips > 0 ? strips_[strips - 1].vertices : 0)};
 }
 
-void Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const {
-  const Matrix3& R = now.body[body_].R_WB;
-  const Vector3& p = now.body[body_].p_WC;
+double Hydrostatics::sample(const Instant& now, FroudeKrylov model, bool gradients, Memory m, Samples& s) const {
   const std::size_t n = s.depth.size();
-  const auto vertices = coordinates_.topRows(static_cast<Eigen::Index>(n));
-  const std::span<double> axes[] = {s.x, s.y, s.z};
-  for (int i = 0; i < 3; ++i)
-    VectorX::Map(axes[i].data(), static_cast<Eigen::Index>(n)).array() = p[i] + R(i, 0) * vertices.col(0).array() +
-                                                                         R(i, 1) * vertices.col(1).array() +
-                                                                         R(i, 2) * vertices.col(2).array();
   WaveSamples wanted{s.depth, s.depth_x, s.depth_y, s.head, s.head_x, s.head_y, s.head_z};
   if (model == FroudeKrylov::volume) wanted.head = {};
-  if (!m.state.empty() && window_->holds(now.t, m.state)) {
-    const Memory of_window{m.state, m.scratch.subspan(static_cast<std::size_t>(sample_size()))};
-    window_->sample(now.t, now.body[body_], vertices, gradients, of_window, wanted);
-    for (std::size_t i = 0; i < wanted.head.size(); ++i) wanted.head[i] -= s.z[i];
-    if (gradients && !wanted.head.empty())
-      for (std::size_t i = 0; i < n; ++i) s.head_z[i] -= 1.0;
-  } else {
-    waves_->sample(now.t, s.x, s.y, s.z, gradients, wanted);
-  }
-  for (std::size_t i = 0; i < n; ++i) s.depth[i] -= s.z[i];
+  const Memory of_window{m.state, m.scratch.subspan(static_cast<std::size_t>(sample_size()))};
+  const double highest = window_->sample(now.t, now.body[body_], coordinates_.topRows(static_cast<Eigen::Index>(n)),
+                                         gradients, of_window, wanted);
   if (model == FroudeKrylov::pressure) {
     for (std::size_t i = 0; i < n; ++i) s.head[i] = s.depth[i] > 0.0 ? s.head[i] : 0.0;
-    return;
+    return highest;
   }
   for (std::size_t i = 0; i < n; ++i) s.head[i] = std::max(s.depth[i], 0.0);
-  if (!gradients) return;
+  if (!gradients) return highest;
   std::ranges::copy(s.depth_x, s.head_x.begin());
   std::ranges::copy(s.depth_y, s.head_y.begin());
   std::ranges::fill(s.head_z, -1.0);
+  return highest;
+}
+
+Hydrostatics::Samples Hydrostatics::sampled(const Instant& now, FroudeKrylov model, bool gradients, Memory m) const {
+  Samples s = reachable(now, surface_->expected, m);
+  if (surface_->enough(sample(now, model, gradients, m, s))) return s;
+  s = reachable(now, surface_->ever, m);
+  sample(now, model, gradients, m, s);
+  return s;
 }
 
 // What cut panels have more than the linear sum gives them.
@@ -235,7 +234,7 @@ void Hydrostatics::for_cut_panels(const Samples& s, const Instant& now, Visitor 
   for (int i = 0; i < s.strips; ++i) {
     const PanelStrip& strip = strips_[i];
     const double middle = z + up.dot(strip.centre), half = up.cwiseAbs().dot(strip.half);
-    if (middle + half < -largest_elevation_ || middle - half > largest_elevation_) continue;
+    if (middle + half < -s.surface || middle - half > s.surface) continue;
     for (int k = strip.first_panel; k < strip.end_panel; ++k) {
       const Panel& panel = panels_[k];
       const double d[3] = {s.depth[panel.corner[0]], s.depth[panel.corner[1]], s.depth[panel.corner[2]]};
@@ -341,8 +340,7 @@ void Hydrostatics::add_jacobian(const Instant& now, double h, Memory m, Jacobian
   if (h == 0.0) m.state = {};
   const Matrix3& R = now.body[body_].R_WB;
   const Vector3 k = R.row(2);
-  Samples s = reachable(now, m);
-  sample(now, model_, true, m, s);
+  Samples s = sampled(now, model_, true, m);
   differentiate_heads(R, s);
   Matrix6 K = linear_sensitivity(s, k);
   for_cut_panels(s, now, [&](const Panel& panel, int wet) { add_cut_panel(s, panel, R, wet, K); });
@@ -363,8 +361,7 @@ void Hydrostatics::add_jacobian(const Instant& now, double h, Memory m, Jacobian
 
 double Hydrostatics::potential_energy(const Instant& now, Memory m) const {
   // int d dV = -1/2 int d^2 n_z dS, and d^2 integrates to sum d_i m_i because d is linear.
-  Samples s = reachable(now, m);
-  sample(now, FroudeKrylov::volume, false, m, s);
+  const Samples s = sampled(now, FroudeKrylov::volume, false, m);
   const Vector3 k = now.body[body_].R_WB.row(2);
   double moment = 0.0;
   for (const Panel& panel : panels(s)) {

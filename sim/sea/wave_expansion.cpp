@@ -5,18 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/sea/wave_kernel.h"
+#include "sim/sea/wave_sums.h"
 
 namespace stillhook {
 
 namespace {
 
-constexpr double kAccuracy = 1e-5;        // of the rms elevation, in time
+constexpr double kAccuracy = 1e-6;        // of the rms elevation, in time; of the head ten times as much
 constexpr double kAccuracyAway = 1e-3;    // the same, off the expected path: waves push a hull a few centimetres off it
 constexpr double kLongestInterval = 1.0;  // s
 
 // Places of the terms.
-enum Elevation { Z, Z_x, Z_y, Z_t, Z_xx, Z_xy, Z_yy, Z_xt, Z_yt, Z_tt, kElevationTerms };
+enum Elevation { Z, Z_x, Z_y, Z_t, Z_xx, Z_xy, Z_yy, Z_xt, Z_yt, Z_tt, Z_xtt, Z_ytt, kElevationTerms };
 enum Head {
   H = kElevationTerms,
   H_x,
@@ -33,19 +33,52 @@ enum Head {
   H_yt,
   H_zt,
   H_tt,
+  H_xtt,
+  H_ytt,
+  H_ztt,
   kTerms
 };
 static_assert(kTerms == kExpansionTerms);
 
-// Sums of the kernel: factors of the cosine first, then of the sine. With E = exp(k s) cos th:
-// E_xx + E_yy + E_ss = 0 and E_tt = -g E_s are not used, so that waves of finite depth could come.
-enum Sum { C_1, C_k, C_kk, C_xx, C_xy, C_yy, C_xt, C_yt, C_tt, S_x, S_y, S_t, S_xk, S_yk, S_tk, kSums };
-constexpr int kCosines = S_x;
+// Sums of wave_sums.h. With E = exp(k s) cos th: E_ss = -E_xx - E_yy holds in any depth. E_tt = -g E_s, which does not,
+// is not used.
+enum ElevationSum { EC_1, EC_xx, EC_xy, EC_yy, EC_xt, EC_yt, EC_tt, ES_x, ES_y, ES_t, ES_xtt, ES_ytt, kOfElevation };
+enum HeadSum {
+  HC_1,
+  HC_s,
+  HC_xx,
+  HC_xy,
+  HC_yy,
+  HC_xt,
+  HC_yt,
+  HC_tt,
+  HC_stt,
+  HC_xst,
+  HC_yst,
+  HS_x,
+  HS_y,
+  HS_t,
+  HS_xs,
+  HS_ys,
+  HS_ts,
+  HS_xtt,
+  HS_ytt,
+  HS_sst,
+  kOfHead
+};
+static_assert(ES_x == kElevationCosines && kOfElevation == kElevationSums && HS_x == kHeadCosines &&
+              kOfHead == kHeadSums);
 
-std::array<double, kSums> factors_of(const WaveComponent& c) {
-  const double k = c.wavenumber, x = k * c.cos_heading, y = k * c.sin_heading, w = c.frequency;
-  // d/dx cos = -kx sin, d/dt cos = +w sin; d/dx sin = kx cos, d/dt sin = -w cos.
-  return {1.0, k, k * k, -x * x, -x * y, -y * y, x * w, y * w, -w * w, -x, -y, w, -x * k, -y * k, w * k};
+std::array<double, kExpansionFactors> factors_of(const WaveComponent& c) {
+  const double a = c.amplitude, k = c.wavenumber, w = c.frequency, x = k * c.cos_heading, y = k * c.sin_heading;
+  // d/dx cos = -kx sin, d/dt cos = +w sin; d/dx sin = kx cos, d/dt sin = -w cos; d/ds = k.
+  std::array<double, kExpansionFactors> f = {1.0,    -x * x,     -x * y,    -y * y,    x * w,     y * w,    -w * w,
+                                             -x,     -y,         w,         x * w * w, y * w * w,  // elevation
+                                             1.0,    k,          -x * x,    -x * y,    -y * y,    x * w,    y * w,
+                                             -w * w, -w * w * k, x * k * w, y * k * w, -x,        -y,       w,
+                                             -x * k, -y * k,     w * k,     x * w * w, y * w * w, k * k * w};
+  for (double& factor : f) factor *= a;
+  return f;
 }
 
 // Value and derivatives by (x, y, s or z, t) of a function at one point.
@@ -53,10 +86,14 @@ struct Series {
   double value;
   Eigen::Vector4d first;
   Eigen::Matrix4d second;
+  Eigen::Vector3d curvature_slope;                       // of the second derivative by t, by x, y, s or z
+  Eigen::Vector3d rate_slope = Eigen::Vector3d::Zero();  // of the derivative by s and t, by x, y, s
 
   // The product with r(t).
   Series ramped(double r, double rate, double curvature) const {
-    Series f{r * value, r * first, r * second};
+    Series f{r * value, r * first, r * second, r * curvature_slope, {}};
+    f.rate_slope = r * rate_slope + rate * second.col(2).head<3>();
+    f.curvature_slope += 2.0 * rate * second.col(3).head<3>() + curvature * first.head<3>();
     f.first[3] += rate * value;
     f.second.col(3) += rate * first;
     f.second.row(3) += rate * first.transpose();
@@ -66,16 +103,30 @@ struct Series {
 };
 
 // `v` holds the sums of one point, v[i * kWaveBlock].
-Series series_of(const double* v, bool decaying) {
-  const auto at = [&](Sum i) { return v[i * kWaveBlock]; };
-  const double s = decaying ? 1.0 : 0.0;
+Series elevation_of(const double* v) {
+  const auto at = [&](ElevationSum i) { return v[i * kWaveBlock]; };
   Series f;
-  f.value = at(C_1);
-  f.first << at(S_x), at(S_y), s * at(C_k), at(S_t);
-  f.second << at(C_xx), at(C_xy), s * at(S_xk), at(C_xt),      //
-      at(C_xy), at(C_yy), s * at(S_yk), at(C_yt),              //
-      s * at(S_xk), s * at(S_yk), s * at(C_kk), s * at(S_tk),  //
-      at(C_xt), at(C_yt), s * at(S_tk), at(C_tt);
+  f.value = at(EC_1);
+  f.first << at(ES_x), at(ES_y), 0.0, at(ES_t);
+  f.second << at(EC_xx), at(EC_xy), 0.0, at(EC_xt),  //
+      at(EC_xy), at(EC_yy), 0.0, at(EC_yt),          //
+      0.0, 0.0, 0.0, 0.0,                            //
+      at(EC_xt), at(EC_yt), 0.0, at(EC_tt);
+  f.curvature_slope << at(ES_xtt), at(ES_ytt), 0.0;
+  return f;
+}
+
+Series head_of(const double* v) {
+  const auto at = [&](HeadSum i) { return v[i * kWaveBlock]; };
+  Series f;
+  f.value = at(HC_1);
+  f.first << at(HS_x), at(HS_y), at(HC_s), at(HS_t);
+  f.second << at(HC_xx), at(HC_xy), at(HS_xs), at(HC_xt),       //
+      at(HC_xy), at(HC_yy), at(HS_ys), at(HC_yt),               //
+      at(HS_xs), at(HS_ys), -at(HC_xx) - at(HC_yy), at(HS_ts),  //
+      at(HC_xt), at(HC_yt), at(HS_ts), at(HC_tt);
+  f.curvature_slope << at(HS_xtt), at(HS_ytt), at(HC_stt);
+  f.rate_slope << at(HC_xst), at(HC_yst), at(HS_sst);
   return f;
 }
 
@@ -84,7 +135,8 @@ Series stretched(const Series& E, const Series& zeta) {
   const Eigen::Vector4d s = Eigen::Vector4d::UnitZ() - zeta.first;
   Eigen::Vector4d e = E.first, mixed = E.second.col(2);
   const double e_s = e[2], e_ss = mixed[2];
-  e[2] = mixed[2] = 0.0;  // E knows no z but through s
+  const Eigen::Vector3d e_si = mixed.head<3>();  // of E_s, by x, y, s
+  e[2] = mixed[2] = 0.0;                         // E knows no z but through s
   Eigen::Matrix4d second = E.second;
   second.row(2).setZero();
   second.col(2).setZero();
@@ -92,6 +144,10 @@ Series stretched(const Series& E, const Series& zeta) {
   h.value = E.value;
   h.first = e + e_s * s;
   h.second = second + mixed * s.transpose() + s * mixed.transpose() + e_ss * s * s.transpose() - e_s * zeta.second;
+  // Of h_tt = E_tt + 2 E_st s_t + E_ss s_t^2 + E_s s_tt, to the second order in the waves.
+  const Eigen::Vector3d up = s.head<3>(), s_it = -zeta.second.col(3).head<3>(), s_itt = -zeta.curvature_slope;
+  h.curvature_slope = E.curvature_slope + E.curvature_slope[2] * (up - Eigen::Vector3d::UnitZ()) +
+                      2.0 * s[3] * E.rate_slope + 2.0 * mixed[3] * s_it - zeta.second(3, 3) * e_si + e_s * s_itt;
   return h;
 }
 
@@ -110,39 +166,41 @@ void store(const Series& zeta, const Series& h, std::size_t stride, double* to) 
       put(h2[i][j], h.second(i, j));
     }
   }
+  put(Z_xtt, zeta.curvature_slope[0]);
+  put(Z_ytt, zeta.curvature_slope[1]);
+  for (int i = 0; i < 3; ++i) put(H_xtt + i, h.curvature_slope[i]);
 }
 
 }  // namespace
 
-std::pair<HermiteWeights, HermiteWeights> quintic_hermite(double s, double H) {
-  const auto end = [H](double u, double sign) {  // u from this end
-    const double v = 1.0 - u, v3 = v * v * v;
-    return HermiteWeights{v3 * (1.0 + u * (3.0 + 6.0 * u)), sign * H * u * v3 * (1.0 + 3.0 * u),
-                          0.5 * H * H * u * u * v3};
+std::array<HermiteWeights, 3> hermite_weights(double s, double H) {
+  // The cube of each instant's own quadratic, times the Taylor polynomial of its reciprocal there. e: from the instant.
+  const auto outer = [H](double e, double sign) {
+    const double q = (1.0 + e) * (1.0 + 0.5 * e), q3 = q * q * q;
+    return HermiteWeights{q3 * (1.0 + e * (-4.5 + 12.0 * e)), sign * H * q3 * e * (1.0 - 4.5 * e),
+                          0.5 * H * H * q3 * e * e};
   };
-  return {end(s, 1.0), end(1.0 - s, -1.0)};
+  const double q = 1.0 - s * s, q3 = q * q * q;
+  return {outer(-s - 1.0, -1.0), {q3 * (1.0 + 3.0 * s * s), H * q3 * s, 0.5 * H * H * q3 * s * s}, outer(s - 1.0, 1.0)};
 }
 
 WaveExpansion::WaveExpansion(std::shared_ptr<const WaveField> waves) : waves_(std::move(waves)) {
-  const auto& components = waves_->components();
-  const std::size_t n = components.size();
-  factor_.resize(kSums * n);
-  double energy = 0.0, sixth = 0.0, mixed = 0.0, third = 0.0;  // sums of a^2, (a w^6)^2, (a w^2 k)^2, (a k^3)^2
-  for (std::size_t j = 0; j < n; ++j) {
-    const WaveComponent& c = components[j];
+  double energy = 0.0, ninth = 0.0, mixed = 0.0, third = 0.0, steep = 0.0;  // sums of a^2, (a w^9)^2, (a w^2 k)^2 ...
+  for (const WaveComponent& c : waves_->components()) {
     const auto factors = factors_of(c);
-    for (std::size_t i = 0; i < kSums; ++i) factor_[i * n + j] = factors[i];
+    factor_.insert(factor_.end(), factors.begin(), factors.end());
     const double a2 = c.amplitude * c.amplitude, w = c.frequency, k = c.wavenumber;
     energy += a2;
-    sixth += a2 * std::pow(w, 12);
+    ninth += a2 * std::pow(w, 18);
     mixed += a2 * std::pow(w * w * k, 2);
     third += a2 * std::pow(k, 6);
+    steep += 0.5 * a2 * k * k;
   }
   if (!(energy > 0.0)) return;
   const auto rms = [energy](double sum) { return std::sqrt(sum / energy); };
-  interval_ = std::min(std::pow(46080.0 * kAccuracy / rms(sixth), 1.0 / 6.0), kLongestInterval);
-  reach_ = std::min(32.0 * kAccuracyAway / (interval_ * interval_ * rms(mixed)),
-                    std::cbrt(6.0 * kAccuracyAway / rms(third)));
+  interval_ = std::min(std::pow(6.36e6 * kAccuracy / rms(ninth), 1.0 / 9.0), kLongestInterval);
+  const double product = 0.06 * interval_ * interval_ * rms(mixed) * 2.0 * std::sqrt(steep);
+  reach_ = std::min(kAccuracyAway / product, std::cbrt(6.0 * kAccuracyAway / rms(third)));
 }
 
 void WaveExpansion::expand(double t, std::span<const double> x, std::span<const double> y, std::span<const double> z,
@@ -152,10 +210,11 @@ void WaveExpansion::expand(double t, std::span<const double> x, std::span<const 
   std::array<FrozenWave, kMaxWaveComponents> frozen;
   for (int j = 0; j < count; ++j) {
     const WaveComponent& c = components[static_cast<std::size_t>(j)];
-    frozen[j] = {c.amplitude, c.wavenumber, c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading,
+    frozen[j] = {1.0, c.wavenumber, c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading,
                  std::remainder(c.phase - c.frequency * t, 2.0 * std::numbers::pi)};
   }
-  const auto [r, rate, curvature] = waves_->ramp_derivatives(t);
+  // A sea without a ramp stands as it does before a run begins, too, where the first instant of a run may lie.
+  const auto [r, rate, curvature] = waves_->ramp_derivatives(std::max(t, 0.0));
   ExpansionBlock block;
   for (std::size_t start = 0; start < x.size(); start += kWaveBlock) {
     const std::size_t n = std::min<std::size_t>(kWaveBlock, x.size() - start);
@@ -163,18 +222,17 @@ void WaveExpansion::expand(double t, std::span<const double> x, std::span<const 
       const std::size_t i = start + std::min(p, n - 1);
       block.x[p] = x[i], block.y[p] = y[i], block.z[p] = z[i];
     }
-    expand_waves(frozen.data(), count, r, factor_.data(), kCosines, kSums, block);
+    sum_expansions(frozen.data(), count, r, factor_.data(), block);
     for (std::size_t p = 0; p < n; ++p) {
-      const Series zeta = series_of(&block.elevation[0][p], false).ramped(r, rate, curvature);
-      const Series E = series_of(&block.head[0][p], true).ramped(r, rate, curvature);
+      const Series zeta = elevation_of(&block.elevation[0][p]).ramped(r, rate, curvature);
+      const Series E = head_of(&block.head[0][p]).ramped(r, rate, curvature);
       store(zeta, stretched(E, zeta), stride, terms + start + p);
     }
   }
 }
 
 void WaveExpansion::add(const double* terms, std::size_t stride, const HermiteWeights& w, std::span<const double> dx,
-                        std::span<const double> dy, std::span<const double> dz, bool gradients,
-                        const WaveSamples& out) {
+                        std::span<const double> dy, std::span<const double> dz, const WaveSamples& out) {
   const auto n = static_cast<Eigen::Index>(dx.size());
   const auto term = [&](int i) {
     return Eigen::Map<const Eigen::ArrayXd>(terms + static_cast<std::size_t>(i) * stride, n);
@@ -183,22 +241,23 @@ void WaveExpansion::add(const double* terms, std::size_t stride, const HermiteWe
   const Eigen::Map<const Eigen::ArrayXd> x(dx.data(), n), y(dy.data(), n), z(dz.data(), n);
   const double p0 = w.value, p1 = w.rate, p2 = w.curvature;
 
-  to(out.elevation) += p0 * (term(Z) + x * (term(Z_x) + 0.5 * x * term(Z_xx) + y * term(Z_xy)) +
-                             y * (term(Z_y) + 0.5 * y * term(Z_yy))) +
-                       p1 * (term(Z_t) + x * term(Z_xt) + y * term(Z_yt)) + p2 * term(Z_tt);
-  if (gradients) {
-    to(out.elevation_x) += p0 * (term(Z_x) + x * term(Z_xx) + y * term(Z_xy)) + p1 * term(Z_xt);
-    to(out.elevation_y) += p0 * (term(Z_y) + x * term(Z_xy) + y * term(Z_yy)) + p1 * term(Z_yt);
-  }
-  if (out.head.empty()) return;
+  to(out.elevation) +=
+      p0 *
+          (term(Z) + x * (term(Z_x) + 0.5 * x * term(Z_xx) + y * term(Z_xy)) + y * (term(Z_y) + 0.5 * y * term(Z_yy))) +
+      p1 * (term(Z_t) + x * term(Z_xt) + y * term(Z_yt)) + p2 * (term(Z_tt) + x * term(Z_xtt) + y * term(Z_ytt));
+  to(out.elevation_x) += p0 * (term(Z_x) + x * term(Z_xx) + y * term(Z_xy)) + p1 * term(Z_xt) + p2 * term(Z_xtt);
+  to(out.elevation_y) += p0 * (term(Z_y) + x * term(Z_xy) + y * term(Z_yy)) + p1 * term(Z_yt) + p2 * term(Z_ytt);
   to(out.head) +=
       p0 * (term(H) + x * (term(H_x) + 0.5 * x * term(H_xx) + y * term(H_xy) + z * term(H_xz)) +
             y * (term(H_y) + 0.5 * y * term(H_yy) + z * term(H_yz)) + z * (term(H_z) + 0.5 * z * term(H_zz))) +
-      p1 * (term(H_t) + x * term(H_xt) + y * term(H_yt) + z * term(H_zt)) + p2 * term(H_tt);
-  if (!gradients) return;
-  to(out.head_x) += p0 * (term(H_x) + x * term(H_xx) + y * term(H_xy) + z * term(H_xz)) + p1 * term(H_xt);
-  to(out.head_y) += p0 * (term(H_y) + x * term(H_xy) + y * term(H_yy) + z * term(H_yz)) + p1 * term(H_yt);
-  to(out.head_z) += p0 * (term(H_z) + x * term(H_xz) + y * term(H_yz) + z * term(H_zz)) + p1 * term(H_zt);
+      p1 * (term(H_t) + x * term(H_xt) + y * term(H_yt) + z * term(H_zt)) +
+      p2 * (term(H_tt) + x * term(H_xtt) + y * term(H_ytt) + z * term(H_ztt));
+  to(out.head_x) +=
+      p0 * (term(H_x) + x * term(H_xx) + y * term(H_xy) + z * term(H_xz)) + p1 * term(H_xt) + p2 * term(H_xtt);
+  to(out.head_y) +=
+      p0 * (term(H_y) + x * term(H_xy) + y * term(H_yy) + z * term(H_yz)) + p1 * term(H_yt) + p2 * term(H_ytt);
+  to(out.head_z) +=
+      p0 * (term(H_z) + x * term(H_xz) + y * term(H_yz) + z * term(H_zz)) + p1 * term(H_zt) + p2 * term(H_ztt);
 }
 
 }  // namespace stillhook

@@ -7,7 +7,7 @@
 
 #include "sim/number_text.h"
 #include "sim/sea/spectrum.h"
-#include "sim/sea/wave_kernel.h"
+#include "sim/sea/wave_sums.h"
 
 namespace stillhook {
 
@@ -94,8 +94,18 @@ std::array<double, 3> WaveField::ramp_derivatives(double t) const {
 
 double WaveField::elevation(double x, double y, double t) const {
   double sum = 0.0;
-  for (const WaveComponent& c : components_)
-    sum += c.amplitude * std::cos(c.wavenumber * (x * c.cos_heading + y * c.sin_heading) + phase_at(c, t));
+  for (std::size_t start = 0; start < components_.size(); start += kPhaseBlock) {
+    double wave[4 * kPhaseBlock] = {}, amplitude[kPhaseBlock] = {};
+    for (std::size_t i = 0; i < std::min<std::size_t>(kPhaseBlock, components_.size() - start); ++i) {
+      const WaveComponent& c = components_[start + i];
+      wave[i] = c.wavenumber * c.cos_heading;
+      wave[kPhaseBlock + i] = c.wavenumber * c.sin_heading;
+      wave[2 * kPhaseBlock + i] = c.frequency;
+      wave[3 * kPhaseBlock + i] = c.phase;
+      amplitude[i] = c.amplitude;
+    }
+    sum += sum_elevation(wave, amplitude, 1, x, y, t);
+  }
   return ramp(t) * sum;
 }
 

@@ -54,37 +54,6 @@ void add_head(const FrozenWave& w, bool gradients, WaveBlock& b, const double* c
   }
 }
 
-// Two sums in one pass over the values of all components.
-void weighted_sums(const double* value, const double* w0, const double* w1, int count, double* out0, double* out1) {
-  alignas(64) double a[B], b[B];
-  for (int p = 0; p < B; ++p) a[p] = b[p] = 0.0;
-  for (int j = 0; j < count; ++j) {
-    const double* v = value + j * B;
-#pragma omp simd
-    for (int p = 0; p < B; ++p) {
-      a[p] += w0[j] * v[p];
-      b[p] += w1[j] * v[p];
-    }
-  }
-  for (int p = 0; p < B; ++p) out0[p] = a[p], out1[p] = b[p];
-}
-
-// a cos and a sin of every component, B values each.
-struct Phases {
-  alignas(64) double c[kMaxWaveComponents * B];
-  alignas(64) double s[kMaxWaveComponents * B];
-};
-
-// Not const: the compiler would take the values beyond `count` for forgotten.
-void all_sums(Phases& of, const double* factor, int cosines, int sums, int count, double (*out)[B]) {
-  for (int i = 0; i < sums; i += 2) {
-    const int end = i < cosines ? cosines : sums;
-    const int k = i + 1 < end ? i + 1 : i;  // the odd one out is summed twice
-    weighted_sums(i < cosines ? of.c : of.s, factor + i * count, factor + k * count, count, out[i], out[k]);
-    if (k == i) --i;
-  }
-}
-
 void clear(double* v) {
   for (int p = 0; p < B; ++p) v[p] = 0.0;
 }
@@ -117,36 +86,6 @@ void evaluate_waves(const FrozenWave* waves, int count, bool head, bool gradient
     b.head_y[p] = above ? b.elevation_y[p] : hy;
     b.head_z[p] = above ? -1.0 : b.head_z[p] - 1.0;
   }
-}
-
-void expand_waves(const FrozenWave* waves, int count, double ramp, const double* factor, int cosines, int sums,
-                  ExpansionBlock& b) {
-  Phases of;
-  for (int j = 0; j < count; ++j) {
-    const FrozenWave& w = waves[j];
-    alignas(64) double theta[B];
-#pragma omp simd
-    for (int p = 0; p < B; ++p) theta[p] = w.kx * b.x[p] + w.ky * b.y[p] + w.phase;
-    cosines_of(theta, of.c + j * B);
-    sines_of(theta, of.s + j * B);
-#pragma omp simd
-    for (int p = 0; p < B; ++p) {
-      of.c[j * B + p] *= w.a;
-      of.s[j * B + p] *= w.a;
-    }
-  }
-  all_sums(of, factor, cosines, sums, count, b.elevation);
-  for (int j = 0; j < count; ++j) {
-    alignas(64) double e[B];
-#pragma omp simd
-    for (int p = 0; p < B; ++p) e[p] = std::exp(waves[j].k * (b.z[p] - ramp * b.elevation[0][p]));
-#pragma omp simd
-    for (int p = 0; p < B; ++p) {
-      of.c[j * B + p] *= e[p];
-      of.s[j * B + p] *= e[p];
-    }
-  }
-  all_sums(of, factor, cosines, sums, count, b.head);
 }
 
 }  // namespace stillhook

@@ -29,17 +29,4 @@ struct alignas(64) WaveBlock {
 /// when `head`; gradients of what is computed when `gradients`.
 void evaluate_waves(const FrozenWave* waves, int count, bool head, bool gradients, WaveBlock& block);
 
-/// Sums over the components at kWaveBlock points: sum j of factor times a cos th (the first `cosines` sums) or a sin th, without
-/// and with the decay exp(k (z - zeta)); zeta is `ramp` times the first sum.
-struct alignas(64) ExpansionBlock {
-  static constexpr int kSums = 15;
-  double x[kWaveBlock], y[kWaveBlock], z[kWaveBlock];
-  double elevation[kSums][kWaveBlock], head[kSums][kWaveBlock];
-};
-
-/// Fills an ExpansionBlock for sim/sea/wave_expansion.h. factor[i * count + j]: of component j in sum i of `sums` <=
-/// ExpansionBlock::kSums.
-void expand_waves(const FrozenWave* waves, int count, double ramp, const double* factor, int cosines, int sums,
-                  ExpansionBlock& block);
-
 }  // namespace stillhook
