@@ -116,8 +116,9 @@ TEST_CASE("the jacket comes to stand on the sea bed: touch at the winch's speed,
   });
   force /= samples, falls /= samples, z /= samples;
   CAPTURE(force, falls, z);
-  CHECK(falls == Approx(2.0 * 500e3).epsilon(0.01));              // the goal of the last move
+  // The goal of the last move, in calm water; 2 % is a quarter of a millimetre of the falls.
+  CHECK(falls == Approx(2.0 * 500e3).epsilon(0.02));
   CHECK(force + falls == Approx(weight - water).epsilon(0.002));  // Newton; the feet are pressed in by a centimetre
-  CHECK(z == Approx(-25.0 - force / 4e8).margin(0.002));          // four feet of 1e5 kN/m
+  CHECK(z == Approx(-25.0 - force / 1e8).margin(0.001));          // 1e5 kN/m, all feet together
   CHECK(still.of("jacket_on_barge.force").back() == 0.0);
 }

@@ -19,9 +19,20 @@ namespace {
 constexpr int kPeriods = 40;  // of the wave, at the end of the run: the load swings freely at half the wave's frequency
 const char* const kChannels[6] = {".x", ".y", ".z", ".roll", ".pitch", ".yaw"};
 
-/// The lift up to the hoisted load, which then waits; without taglines, which are not linear.
+constexpr double kLoad = 1e5;  // kg, a tenth of the load
+
+/// The lift up to the hoisted load, which then waits; without taglines, which are not linear. The barge keeps nine tenths
+/// of the load: the linear response takes the excitation of the drafts at the start, and with 1,000 t over to the crane
+/// the barge rides a tenth higher, which is a tenth of the force on it.
 Specification waiting(double heading) {
   Specification s = reference_case().specification;
+  for (BodySpec& body : s.bodies) {
+    if (body.name == "barge") body.mass += 9.0 * kLoad;
+    if (body.name != "load") continue;
+    REQUIRE(body.mass == Approx(10.0 * kLoad));
+    body.mass *= 0.1;
+    body.inertia *= 0.1;
+  }
   s.taglines.clear();
   std::erase_if(s.contacts, [](const ContactSpec& c) { return c.role == ContactSpec::Role::target; });
   s.poses.clear();
@@ -76,7 +87,7 @@ Complex tension(const ReferenceLift& lift, const StaticPose& pose, const Respons
 
 }  // namespace
 
-TEST_CASE("the hanging reference lift moves in a small wave as its linear response says", "[validation][slow]") {
+TEST_CASE("the reference lift with a tenth of its load moves in a small wave as its linear response says", "[validation][slow]") {
   const double heading = GENERATE(45.0, 135.0) * kDegree;
   const Specification spec = waiting(heading);
   const ReferenceLift lift(spec);
@@ -112,5 +123,5 @@ TEST_CASE("the hanging reference lift moves in a small wave as its linear respon
   }
   // Together they accelerate the load: m w^2 z, whatever the wires' law.
   const double z = amplitude(run, "load.z", sea.frequency);
-  CHECK(std::abs(both) == Approx(1e6 * sea.frequency * sea.frequency * z).epsilon(0.02));
+  CHECK(std::abs(both) == Approx(kLoad * sea.frequency * sea.frequency * z).epsilon(0.02));
 }
