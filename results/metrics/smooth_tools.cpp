@@ -61,9 +61,10 @@ double soft_peak(const RunView& view, const Phases& phases, double sharpness, co
     }
   }
   if (!(high > low)) return high;
-  // Scale and shift are rounded to a grid of powers of two, so that a small change of the run does not change them.
-  const double s = sharpness / std::exp2(std::ceil(std::log2(high - low)));
-  const double shift = std::exp2(std::ceil(std::log2(std::abs(high) + 1e-12))) * (high < 0.0 ? -0.5 : 1.0);
+  // The scale is rounded to a power of two, so that a small change of the run does not change it. So is the shift, to a
+  // multiple of it: no more than one above the peak, or all exponentials of a peak with a small range would be zero.
+  const double scale = std::exp2(std::ceil(std::log2(high - low))), s = sharpness / scale;
+  const double shift = std::ceil(high / scale) * scale;
   const double mean =
       window_mean(view, phases, [&](std::size_t p, std::size_t i) { return std::exp(s * (f(p, i) - shift)); });
   return shift + std::log(mean) / s;

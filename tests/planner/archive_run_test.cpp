@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <sstream>
 #include <thread>
@@ -39,6 +40,15 @@ std::size_t temporary_files(const std::string& folder) {
   return count;
 }
 
+/// What a child has computed, s.
+double processor_seconds(pid_t child) {
+  clockid_t clock;
+  timespec used{};
+  REQUIRE(clock_getcpuclockid(child, &clock) == 0);
+  REQUIRE(clock_gettime(clock, &used) == 0);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
 }  // namespace
 
 TEST_CASE("simulate: kill -9 at any moment leaves a history that can be read, reported and exported", "[archive]") {
@@ -52,9 +62,10 @@ TEST_CASE("simulate: kill -9 at any moment leaves a history that can be read, re
                        "operation.phases.settle.duration_s=100000", "--set", "solver.output_interval_s=5"});
     for (int k = 0; k < 6000 && !fs::exists(history); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     REQUIRE(fs::exists(history));
-    // There are dozens of syncs a second: the kill falls into one now and then. The last run gets far on a busy machine
-    // too.
-    std::this_thread::sleep_for(std::chrono::milliseconds(50 + 30 * i * i));
+    // There are dozens of syncs a second: the kill falls into one now and then. In the child's processor time, so that the
+    // last run gets far on a busy machine too.
+    const double enough = processor_seconds(child) + 0.05 + 0.03 * i * i;
+    for (int k = 0; k < 6000 && processor_seconds(child) < enough; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     kill(child, SIGKILL);
     CHECK(finish(folder, child).code == -SIGKILL);
     const Trajectory left = read_archive(history);

@@ -44,10 +44,10 @@ offered() {
   printf '%s\n' "${COMPREPLY[@]}"
 }
 expect() {  # WHAT IS OFFERED, MUST CONTAIN
-  grep -qxF -- "$2" <<< "$1" || fail "'$2' is not among: $(tr '\n' ' ' <<< "$1")"
+  [[ $'\n'$1$'\n' == *$'\n'"$2"$'\n'* ]] || fail "'$2' is not among: $(tr '\n' ' ' <<< "$1")"
 }
 refuse() {
-  if grep -qxF -- "$2" <<< "$1"; then fail "'$2' is offered"; fi
+  if [[ $'\n'$1$'\n' == *$'\n'"$2"$'\n'* ]]; then fail "'$2' is offered"; fi
 }
 
 # Every verb that --help lists, and every option that the verb's own --help lists.

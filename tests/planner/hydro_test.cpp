@@ -1,11 +1,14 @@
 // `stillhook hydro` as a user meets it: a small box, coarse panels, the files it leaves, the cache.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "planner/verbs/hydro/hydro_convergence.h"
@@ -179,6 +182,41 @@ TEST_CASE("hydro refuses coefficients that fail a check, and says so when they a
                               Catch::Contains("panel_method.kramers_kronig_tolerance") &&
                               Catch::Contains("panel_method.refinement = 0.56 takes"));
   CHECK_FALSE(fs::exists(folder / "refused/summary.json"));
+}
+
+TEST_CASE("without a static start, hydro and the run take the draft that the hull floats at, and the run begins where it is put",
+          "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder);
+  // 1,640 t float at 2 m, where the body's origin is in the water plane: held 0.25 m deeper, and let go.
+  const std::vector<std::string> held = {"--set", "bodies.barge.position_m=[0.0, 0.0, -0.25]", "--set", "solver.static_start=false"};
+  const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return run_hydro(folder, words);
+  };
+  const Result hydro = with({"hydro", file, "--out", "hydro"}, held);
+  INFO(hydro.err);
+  REQUIRE(hydro.code == 0);
+  // That of its weight, to the centimetre: it swings about there.
+  CHECK(read_coefficient_file(folder / "hydro/coefficients-barge.csv").waterline == Approx(0.0).margin(0.01));
+
+  const Result simulate = with({"simulate", file, "--out", "run"}, held);
+  INFO(simulate.err);
+  REQUIRE((simulate.code == 0 || simulate.code == 3));
+  // The set of that draft is kept, and the model asks for no other.
+  CHECK(simulate.err.find("the panel method computes") == std::string::npos);
+  const Result table = with({"export", "run", "--csv", "--out", "-", "--channels", "barge.z"}, {});
+  INFO(table.err);
+  std::istringstream rows(table.out);
+  std::vector<double> t, z;
+  for (std::string row; std::getline(rows, row);)
+    if (const std::size_t comma = row.find(','); comma != std::string::npos && std::isdigit(static_cast<unsigned char>(row[0])))
+      t.push_back(std::stod(row)), z.push_back(std::stod(row.substr(comma + 1)));
+  REQUIRE(z.size() > 20);
+  CHECK(t.front() == 0.0);
+  CHECK(z.front() == -0.25);
+  // Let go it comes up, through the draft that it floats at.
+  CHECK(*std::max_element(z.begin(), z.end()) > 0.0);
 }
 
 TEST_CASE("simulate and check tell that the panel method runs", "[hydro]") {

@@ -18,9 +18,9 @@ for title in NAME SYNOPSIS DESCRIPTION COMMANDS "EXIT STATUS" ENVIRONMENT FILES 
   grep -q "^$title" <<< "$page" || fail "no section $title"
 done
 for verb in $("$program" --help | sed -n '/^Subcommands:/,/^$/p' | awk '/^  [a-z]/ {print $1}'); do
-  grep -q "stillhook $verb" <<< "$page" || fail "no verb $verb"
+  [[ $page == *"stillhook $verb"* ]] || fail "no verb $verb"
   for option in $("$program" "$verb" --help | grep -oE '^ +(-[a-z],)?--[a-z-]+' | grep -oE '\-\-[a-z-]+' | grep -v -- --help); do
-    grep -q -- "$option" <<< "$page" || fail "no option $option of $verb"
+    [[ $page == *"$option"* ]] || fail "no option $option of $verb"
   done
 done
 exit $((failures > 0))

@@ -12,6 +12,7 @@ def environment(build, folder, program=None):
     """Coefficients of hulls are kept with the build that computed them; sanitizers end the process at what they find."""
     result = dict(os.environ)
     result["STILLHOOK_CACHE"] = str(folder / "coefficients")
+    result["OMP_WAIT_POLICY"] = "passive"  # as under CTest
     result["ASAN_OPTIONS"] = "detect_leaks=1:strict_string_checks=1"
     result["UBSAN_OPTIONS"] = "print_stacktrace=1"
     result["TSAN_OPTIONS"] = "halt_on_error=1:second_deadlock_stack=1"

@@ -1,7 +1,9 @@
 #include "sim/hull/panel_method.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "sim/hull/linear_froude_krylov.h"
@@ -10,6 +12,7 @@
 #include "tests/truth/box_hull.h"
 #include "tests/truth/hemisphere.h"
 #include "tests/truth/sphere_mesh.h"
+#include "tests/truth/two_boxes.h"
 
 namespace stillhook {
 namespace {
@@ -270,17 +273,24 @@ TEST_CASE("two hulls far apart are two single hulls, and near ones push each oth
   b.x = 12.0;
   const HydrodynamicCoefficients near = panel_method({a, b}, options, &report);
   CHECK(report.asymmetry < 0.05);
-  // 0.0209 and 0.0218 with refinement 1 and 1.5, 0.017 on these panels.
-  CHECK(near.frequency[1].A(2, 8) == Approx(0.0218 * near.frequency[1].A(2, 2)).epsilon(0.3));
+  // What one does to the other, by Capytaine 3.0.0 on hemispheres of 784 panels, over rho V and rho V w: within 2 % of
+  // rho V of it, 3 % in surge, where both bodies are polyhedra of less volume.
+  const double displaced = options.density * 2.0 / 3.0 * std::numbers::pi * 125.0, w = near.frequency[1].frequency;
+  CHECK(near.frequency[1].A(0, 6) / displaced == Approx(-0.2502).margin(0.03));
+  CHECK(near.frequency[1].A(1, 7) / displaced == Approx(0.0845).margin(0.02));
+  CHECK(near.frequency[1].A(0, 8) / displaced == Approx(-0.1900).margin(0.02));
+  CHECK(near.frequency[1].A(2, 8) / displaced == Approx(0.0191).margin(0.015));
+  CHECK(near.frequency[1].B(0, 6) / (displaced * w) == Approx(0.0251).margin(0.02));
+  CHECK(near.frequency[1].B(1, 7) / (displaced * w) == Approx(0.1434).margin(0.02));
+  CHECK(near.frequency[1].B(0, 8) / (displaced * w) == Approx(-0.1270).margin(0.02));
+  CHECK(near.frequency[1].B(2, 8) / (displaced * w) == Approx(0.2003).margin(0.02));
   CHECK(near.frequency[1].A(2, 2) != Approx(alone.frequency[1].A(2, 2)).epsilon(0.005));
   // Energy of both together, in phase and against each other, is radiated, never gained.
   const Eigen::SelfAdjointEigenSolver<MatrixX> B(near.frequency[1].B, Eigen::EigenvaluesOnly);
   CHECK(B.eigenvalues()(0) > -1e-3 * B.eigenvalues()(11));
 }
 
-TEST_CASE("the water between two long hulls resonates, is damped and is found", "[rankine]") {
-  // Two boxes side by side, 4 m apart: the gap's piston mode. Without walls at its ends it is low and broad; the first
-  // longitudinal mode of a gap of length l and draft d lies near w^2 = g/d for a narrow one (Molin 2001).
+TEST_CASE("two boxes side by side and the water between them against another code", "[rankine]") {
   PanelHull a;
   a.name = "a";
   a.box_size = {40.0, 10.0, 8.0};
@@ -291,18 +301,45 @@ TEST_CASE("the water between two long hulls resonates, is damped and is found", 
   b.y = 14.0;
   PanelMethodOptions options;
   options.headings = 8;
-  options.refinement = 0.5;
-  for (int i = 0; i < 6; ++i) options.chosen.push_back(0.95 + 0.07 * i);
-  PanelMethodReport damped, free;
-  panel_method({a, b}, options, &damped);
-  options.gap_damping = 0.0;
+  options.refinement = 0.3;
+  for (const truth::TwoBoxes& exact : truth::kTwoBoxes) options.chosen.push_back(exact.frequency);
+  const double gap_damping = options.gap_damping;
+  options.gap_damping = 0.0;  // the other code has none
+  PanelMethodReport free, damped;
   const HydrodynamicCoefficients set = panel_method({a, b}, options, &free);
+  const double displaced = options.density * 1600.0;
+  for (std::size_t n = 0; n < std::size(truth::kTwoBoxes); ++n) {
+    const truth::TwoBoxes& exact = truth::kTwoBoxes[n];
+    const FrequencyCoefficients& found = set.frequency[n + 1];  // after zero
+    CAPTURE(exact.frequency);
+    REQUIRE(found.frequency == Approx(exact.frequency));
+    // Away from the resonance 6 % of what the boxes displace, which is what panels as coarse as these are off by for one
+    // of them. Near it everything changes by its own size within 0.05 rad/s, signs included: 10 % of the largest entry is
+    // a frequency of the resonance that is off by less than 1 %.
+    const double A = exact.frequency < 1.1 || exact.frequency > 1.25 ? 0.06 : 0.1 * std::max(std::abs(exact.A11), 4.5);
+    const double B = exact.frequency < 1.1 || exact.frequency > 1.25 ? 0.07 : 0.1 * exact.B11;
+    const auto added = [&](int i, int j) { return found.A(i, j) / displaced; };
+    const auto damping = [&](int i, int j) { return found.B(i, j) / (displaced * exact.frequency); };
+    CHECK(added(1, 1) == Approx(exact.A11).margin(A));
+    CHECK(added(1, 7) == Approx(exact.A13).margin(A));
+    CHECK(added(2, 2) == Approx(exact.A22).margin(A));
+    CHECK(added(2, 8) == Approx(exact.A24).margin(A));
+    CHECK(added(1, 2) == Approx(exact.A12).margin(A));
+    CHECK(damping(1, 1) == Approx(exact.B11).margin(B));
+    CHECK(damping(1, 7) == Approx(exact.B13).margin(B));
+    CHECK(damping(2, 2) == Approx(exact.B22).margin(B));
+    CHECK(damping(2, 8) == Approx(exact.B24).margin(B));
+  }
+  // The gap's lowest mode, where the other code has it: by Molin's formula for a gap with open ends 1.145 rad/s (J. Fluid
+  // Mech. 430, 2001, with hulls that end nowhere). It is found, and damped where that is asked for.
   CHECK(free.gap_rise > kGapResonance);
-  CHECK(free.gap_rise > 1.02 * damped.gap_rise);
-  CHECK(free.gap_frequency > 0.95);
-  CHECK(free.gap_frequency < 1.35);
+  CHECK(free.gap_frequency == Approx(1.2));
   CHECK(set.gap_rise == free.gap_rise);
   CHECK(set.gap_frequency == free.gap_frequency);
+  options.gap_damping = gap_damping;
+  options.chosen = {1.2};
+  panel_method({a, b}, options, &damped);
+  CHECK(free.gap_rise > 1.3 * damped.gap_rise);
 }
 
 }  // namespace stillhook
