@@ -16,8 +16,10 @@ namespace {
 // bottom, where B_33 itself has all but gone.
 constexpr double kHaskindFloor = 0.4;
 // Where no spring holds a hull - surge, sway, yaw - an error dB of the damping changes a motion by dB/(w m), m the
-// inertia of the displaced water: a tenth of w m as scale lets it change by 0.1 x 8 % = 0.8 %. In the other
-// modes B matters at resonance: there only noise is let pass.
+// inertia of the displaced water: a tenth of w m as scale lets it change by 0.1 x 8 % = 0.8 %. In heave the spring is
+// known, C = rho g A_waterplane, and above resonance the motion changes by dB/|w (m + A) - C/w|, so that a tenth of this
+// is the scale: the bottom of a deep hull hardly makes waves there, and what the pressure has of B is the error of the
+// panels alone. Roll and pitch have springs that depend on the centre of gravity: there only noise is let pass.
 constexpr double kDampingInertia = 0.1, kDampingNoise = 1e-5;
 // There too an error dA counts beside m + A: the added mass of a shallow barge in sway is a tenth of m, that in heave as
 // large as m. With half of m as scale both may change a motion by half of 6 %.
@@ -50,6 +52,17 @@ std::string at_frequency(const char* matrix, int i, int j, double w) {
 
 /// No spring holds the hull in this mode.
 bool is_free(int mode) { return mode % 6 < 2 || mode % 6 == 5; }
+
+/// N s/m, N m s: the least that an error of B_ii is compared with, by what it does to the motion; A is A_ii there.
+double least_damping_scale(const HydrodynamicCoefficients& c, int mode, double w, double A) {
+  const double m = displaced_inertia(c, mode);
+  const std::size_t hull = static_cast<std::size_t>(mode / 6);
+  if (is_free(mode)) return kDampingInertia * w * m;
+  double scale = kDampingNoise * w * m;
+  if (mode % 6 == 2 && hull < c.waterplane.size() && c.waterplane[hull] > 0.0)
+    scale = std::max(scale, kDampingInertia * (w * (m + A) - c.density * c.gravity * c.waterplane[hull] / w));
+  return scale;
+}
 
 /// X_ij / sqrt(s_i s_j) with s the diagonal of `scale`; rows of modes without scale are left as they are.
 MatrixX normalised(const MatrixX& X, const VectorX& scale) {
@@ -128,9 +141,8 @@ SelfCheck check_kramers_kronig(const HydrodynamicCoefficients& c, const SelfChec
     if (c.hulls() > 1) A_scale = A_scale.cwiseMax(f.B.diagonal() / f.frequency);
     VectorX B_scale = largest_damping;
     for (int i = 0; i < c.modes(); ++i) {
-      if (!is_free(i)) continue;
-      A_scale(i) = std::max(A_scale(i), kAddedInertia * displaced_inertia(c, i));
-      B_scale(i) = std::max(B_scale(i), kDampingInertia * f.frequency * displaced_inertia(c, i));
+      B_scale(i) = std::max(B_scale(i), least_damping_scale(c, i, f.frequency, f.A(i, i)));
+      if (is_free(i)) A_scale(i) = std::max(A_scale(i), kAddedInertia * displaced_inertia(c, i));
     }
     const MatrixX dA = normalised(A - f.A, A_scale);
     const MatrixX dB = normalised(B - f.B, B_scale);
@@ -239,9 +251,7 @@ SelfCheck check_haskind(const HydrodynamicCoefficients& c, const SelfCheckTolera
     if (between_table_frequencies(c, w)) continue;
     if (headings < 2.0 * (0.5 * k * diagonal_of(c) * c.hulls() + 1.0) || !radiation_at(c, w, A, B)) continue;
     VectorX scale = B.diagonal().cwiseMax(kHaskindFloor * largest);
-    for (int i = 0; i < c.modes(); ++i) {
-      scale(i) = std::max(scale(i), (is_free(i) ? kDampingInertia : kDampingNoise) * w * displaced_inertia(c, i));
-    }
+    for (int i = 0; i < c.modes(); ++i) scale(i) = std::max(scale(i), least_damping_scale(c, i, w, A(i, i)));
     const double factor = std::pow(w / c.gravity, 3) / (2.0 * c.density * headings);  // 2 pi / headings / (4 pi ...)
     for (int i = 0; i < c.modes(); ++i)
       for (int j = 6 * (i / 6); j <= i; ++j) {
@@ -293,9 +303,17 @@ void add_long_wave_checks(const HydrodynamicCoefficients& c, const SelfCheckTole
     const std::string detail = "of X" + std::to_string(mode + 1) + " " + at_frequency(w);
     if (B(mode, mode) > kHaskindFloor * B_largest(mode) && B_33 > 0.0 && mean != 0.0)
       worsen(phase, std::abs(mean.imag() / (w * B_33) + 1.0), detail);
-    if (hull < static_cast<int>(c.waterplane.size()) && c.waterplane[hull] > 0.0)
-      worsen(heave, std::abs((mean.real() + w * w * A_33) / (c.density * c.gravity * c.waterplane[hull]) - 1.0),
+    if (hull < static_cast<int>(c.waterplane.size()) && c.waterplane[hull] > 0.0) {
+      // The water's acceleration, w^2 where the hull's mean depth is small beside the wave, pulls at the displaced and
+      // the added mass: rho g A_w - w^2 (rho V + A_33). A hull of upright walls has exp(-k V/A_w) of both sums at its
+      // bottom, which is the same in the limit. What a column or a spar leaves of it is a small difference of the two
+      // parts: their sum is the scale.
+      const double spring = c.density * c.gravity * c.waterplane[hull], mass = c.density * c.volume[hull];
+      const double at_bottom = std::exp(-w * w / c.gravity * c.volume[hull] / c.waterplane[hull]);
+      worsen(heave,
+             std::abs(mean.real() - (spring - w * w * A_33) * at_bottom) / (spring + w * w * (mass + std::abs(A_33))),
              detail);
+    }
   }
   checks.push_back(phase);
   if (!c.waterplane.empty()) checks.push_back(heave);

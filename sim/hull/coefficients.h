@@ -124,11 +124,13 @@ struct SelfCheck {
 ///   1962):
 ///                         B_ij = w^3 / (4 pi rho g^3) int_0^2pi Re(X_i conj X_j) db      (deep water),
 ///                       wherever the headings resolve the integrand: more than 2 (k R + 1), R half the diagonal;
-///                       errors relative to B, or to w m of the displaced water where no spring holds the hull
+///                       errors relative to B, or to w m of the displaced water where no spring holds the hull, or in
+///                       heave to what w (m + A) has above the spring of the water plane
 ///   long_wave_phase     where k length/2 <= 1, at the lowest frequency: the force of surge and sway leads the crest by
 ///   a
 ///                       quarter period, along the direction of the waves, and that of heave lags by w B_33
-///   long_wave_heave     there too: X_3 + w^2 A_33 -> rho g A_waterplane
+///   long_wave_heave     there too: X_3 -> rho g A_waterplane - w^2 (rho V + A_33), as of upright walls at the depth
+///                       V/A_waterplane; errors relative to the sum of both parts
 std::vector<SelfCheck> self_checks(const HydrodynamicCoefficients& coefficients,
                                    const SelfCheckTolerances& tolerances = {});
 

@@ -21,8 +21,12 @@ double largest_excitation(const ExcitationTable& X, int first, int count) {
 }  // namespace
 
 double displaced_inertia(const HydrodynamicCoefficients& c, int mode) {
-  const double mass = c.density * c.volume[static_cast<std::size_t>(mode / 6)];
-  return mode % 6 < 3 ? mass : mass * std::pow(0.25 * c.length, 2);
+  const std::size_t hull = static_cast<std::size_t>(mode / 6);
+  const double mass = c.density * c.volume[hull];
+  if (mode % 6 < 3) return mass;
+  double square = std::pow(0.25 * c.length, 2);
+  if (mode % 6 == 5 && hull < c.waterplane.size()) square += std::pow(c.waterplane[hull] / c.length, 2) / 12.0;
+  return mass * square;
 }
 
 std::vector<bool> silent_modes(const HydrodynamicCoefficients& c) {

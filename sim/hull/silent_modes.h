@@ -12,7 +12,8 @@
 
 namespace stillhook {
 
-/// kg or kg m2, of the water that the hull of a mode displaces: rho V, and rho V (L/4)^2 for turns.
+/// kg or kg m2, of the water that the hull of a mode displaces: rho V, and rho V (L/4)^2 for turns. In yaw, where
+/// the water plane is known, rho V ((L/4)^2 + B^2/12) with the mean breadth B: more than half of it in a square barge.
 double displaced_inertia(const HydrodynamicCoefficients& c, int mode);
 
 /// For each mode.

@@ -41,6 +41,31 @@ void reverse_headings(ExcitationTable& X) {
       for (int i = 0; i < X.modes; ++i) X.at(f, h, i) = old.at(f, (h + headings / 2) % headings, i);
 }
 
+/// A hull that only heaves: A_33 (kg) at all frequencies, X_3 (N/m) from all headings, and B_33 of the energy of X_3.
+HydrodynamicCoefficients heaving(double volume, double waterplane, double length, double A,
+                                 const std::vector<std::pair<double, Complex>>& X) {
+  HydrodynamicCoefficients c;
+  c.source = "heave alone";
+  c.density = 1025.0;
+  c.gravity = 9.80665;
+  c.length = length;
+  c.volume = {volume};
+  c.waterplane = {waterplane};
+  c.A_inf = MatrixX::Zero(6, 6);
+  c.A_inf(2, 2) = A;
+  constexpr int kHeadings = 72;
+  for (int h = 0; h < kHeadings; ++h) c.excitation.headings.push_back(2.0 * std::numbers::pi * h / kHeadings);
+  for (const auto& [w, x] : X) {
+    c.excitation.frequencies.push_back(w);
+    for (int h = 0; h < kHeadings; ++h)
+      for (int i = 0; i < 6; ++i) c.excitation.value.push_back(i == 2 ? x : 0.0);
+    FrequencyCoefficients at{w, c.A_inf, MatrixX::Zero(6, 6)};
+    at.B(2, 2) = std::pow(w / c.gravity, 3) / (2.0 * c.density) * std::norm(x);
+    c.frequency.push_back(at);
+  }
+  return c;
+}
+
 void scale_all(HydrodynamicCoefficients& c, double factor) {
   c.A_inf *= factor;
   for (FrequencyCoefficients& f : c.frequency) f.A *= factor, f.B *= factor;
@@ -140,6 +165,50 @@ TEST_CASE("Haskind's relation holds without a table, by the retardation function
   INFO(check.value << " " << check.detail);
   CHECK(check.value > 0.0);
   CHECK(check.passed());
+}
+
+TEST_CASE("damping of a deep hull's heave is judged by what it does to the motion", "[self_check]") {
+  // A box of 90 x 90 x 40 m: the heave force goes with exp(-40 m k), so that B has all but gone at 1.63 rad/s, where the
+  // panels leave 2.5e6 N s/m of their own. C = 81.4e6 N/m and m + A = 572e6 kg make that 0.3 % of the motion there.
+  const double density = 1025.0, gravity = 9.80665, area = 8100.0, draft = 40.0;
+  std::vector<std::pair<double, Complex>> X;
+  for (double w = 0.2; w < 2.0; w *= 1.077)
+    X.emplace_back(w, (density * gravity * area - w * w * 2.4e8) * std::exp(-draft * w * w / gravity));
+  HydrodynamicCoefficients c = heaving(area * draft, area, 90.0, 2.4e8, X);
+  double largest = 0.0;
+  for (const FrequencyCoefficients& at : c.frequency) largest = std::max(largest, at.B(2, 2));
+  REQUIRE(largest > 1.5e7);
+  for (FrequencyCoefficients& at : c.frequency)
+    if (at.frequency > 1.3) at.B(2, 2) += 2.5e6;
+  CHECK(check_named(self_checks(c), "haskind").value > 0.01);
+  CHECK(check_named(self_checks(c), "haskind").passed());
+  // At resonance, 0.38 rad/s, the same error is an eighth of all the damping there is.
+  for (FrequencyCoefficients& at : c.frequency)
+    if (std::abs(at.frequency - 0.38) < 0.02) at.B(2, 2) += 2.5e6;
+  CHECK_FALSE(check_named(self_checks(c), "haskind").passed());
+}
+
+TEST_CASE("heave force of deep hulls in long waves", "[self_check]") {
+  // At 0.4 rad/s as WAMIT gives them, in files that come with OpenFAST; X_3 from all headings alike. The water's
+  // acceleration pulls at what the hull displaces: of a tension-leg platform 47.9 m deep that is half of rho g A_w, of a
+  // spar 120 m deep the force is against it.
+  struct Truth {
+    double volume, waterplane, length, A, X;
+  };
+  for (const Truth& t : {Truth{12179.6, 254.33, 18.0, 1440.97, 104.700}, Truth{8029.21, 33.12, 9.4, 249.83, -22.63}}) {
+    const auto set = [&](double share) {
+      return heaving(t.volume, share * t.waterplane, t.length, 1025.0 * t.A, {{0.4, 1025.0 * 9.80665 * t.X}});
+    };
+    const SelfCheck check = check_named(self_checks(set(1.0)), "long_wave_heave");
+    INFO(t.volume << ": " << check.value << " " << check.detail);
+    CHECK(check.passed());
+  }
+  const Truth platform{12179.6, 254.33, 18.0, 1440.97, 104.700};
+  for (const double share : {0.5, 2.0})
+    CHECK_FALSE(check_named(self_checks(heaving(platform.volume, share * platform.waterplane, platform.length,
+                                                1025.0 * platform.A, {{0.4, 1025.0 * 9.80665 * platform.X}})),
+                            "long_wave_heave")
+                    .passed());
 }
 
 TEST_CASE("every tolerance of a self-check has a key that a refusal names", "[self_check]") {
