@@ -24,7 +24,7 @@ namespace stillhook {
 namespace {
 
 // Changes whenever the same input would give other numbers.
-constexpr const char* kMethodVersion = "rankine 6";
+constexpr const char* kMethodVersion = "rankine 5";
 constexpr const char* kMethodOfMeshes = "triangles to the diagonal";
 constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
 

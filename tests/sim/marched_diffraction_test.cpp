@@ -23,22 +23,6 @@ namespace {
 using namespace rankine;
 using Vector6c = Eigen::Matrix<Complex, 6, 1>;
 
-/// q of the cells by which the water has its kinematics, phi = N M q: what cells of constant strength need for waves of
-/// wave number k, and line sources where they double (frequency_response.h), put together anew.
-MatrixX corrected_strengths(const SurfacePanels& surface, double k) {
-  MatrixX M = MatrixX::Identity(surface.size(), surface.size());
-  for (const Seam& seam : surface.seams) {
-    // -[h^2]/12 step/(1.5 h) a length h of the seam, 2/3 of it over the area h^2 and 1/3 over 4 h^2, [h^2] = 3 h^2.
-    constexpr double kSource = 3.0 / 12.0 / 1.5;
-    M(seam.small, seam.large) -= kSource * 2.0 / 3.0;
-    M(seam.small, seam.small) += kSource * 2.0 / 3.0;
-    M(seam.large, seam.large) -= kSource / 3.0 / 4.0;
-    M(seam.large, seam.small) += kSource / 3.0 / 4.0;
-  }
-  for (int i = 0; i < surface.size(); ++i) M.row(i) *= wave_correction(k * std::sqrt(surface.area[i]));
-  return M;
-}
-
 /// X_D as the march settles to it, about the middle of the hull.
 Vector6c marched(const PanelHull& hull, const PanelMethodOptions& options, double w, double heading) {
   const Layout layout = place({hull});
@@ -57,12 +41,11 @@ Vector6c marched(const PanelHull& hull, const PanelMethodOptions& options, doubl
     const ClassModes modes = modes_of(panels, layout, c.parity);
     if (modes.modes.empty()) continue;
     const Eigen::VectorXcd v = -incident_velocity(panels, c.parity, w, heading, g);
-    const MatrixX M = corrected_strengths(surface, w * w / g);
-    const MatrixX P = (c.N * M).partialPivLu().inverse(), C = c.C * M;
-    const MatrixX weighted = modes.normal.transpose() * weight.asDiagonal(), W = -g * (weighted * C) * P;
+    const MatrixX P = c.N.partialPivLu().inverse();
+    const MatrixX weighted = modes.normal.transpose() * weight.asDiagonal(), W = -g * (weighted * c.C) * P;
     const Eigen::VectorXcd drive = -P.cast<Complex>() * (c.R.cast<Complex>() * v);
     const Eigen::VectorXcd local =
-        weighted.cast<Complex>() * (c.hull_response.cast<Complex>() * v + C.cast<Complex>() * drive);
+        weighted.cast<Complex>() * (c.hull_response.cast<Complex>() * v + c.C.cast<Complex>() * drive);
     VectorX eta = VectorX::Zero(surface.size()), phi = eta;
     Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(modes.modes.size());
     for (int n = 0; n < kPeriods * kSteps; ++n) {

@@ -1,10 +1,8 @@
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "sim/hull/rankine/free_surface.h"
-#include "sim/hull/rankine/frequency_response.h"
 #include "sim/hull/rankine/layout.h"
 #include "sim/specification.h"
 #include "tests/truth/sphere_mesh.h"
@@ -122,49 +120,6 @@ TEST_CASE("the water surface leaves out the hulls and nothing else", "[rankine]"
     CHECK(piece.normal.z() > 0.999);
     for (int i = 0; i < piece.corners; ++i) CHECK((piece.v[i].x() >= 55.0 - 1e-9 || piece.v[i].y() >= 23.0 - 1e-9));
   }
-}
-
-TEST_CASE("seams are where a whole cell meets one of twice its size", "[rankine]") {
-  const HullPanels panels = box_panels(30.0, 12.0, 4.0, 2.0);
-  const SurfacePanels surface = free_surface(panels, {1.0, 4.0, 0.25, 40.0});
-  std::vector<std::pair<int, int>> found, truth;
-  for (const Seam& seam : surface.seams) found.emplace_back(seam.small, seam.large);
-  const auto is_square = [&](int j) {
-    const double side = std::sqrt(surface.area[j]);
-    return surface.first[j + 1] == surface.first[j] + 1 && std::abs(std::log2(side) - std::round(std::log2(side))) < 1e-9;
-  };
-  for (int a = 0; a < surface.size(); ++a)
-    for (int b = 0; b < surface.size(); ++b) {
-      const double side = std::sqrt(surface.area[a]);
-      if (!is_square(a) || !is_square(b) || std::abs(surface.area[b] - 4.0 * surface.area[a]) > 1e-9) continue;
-      // Middles 1.5 sides apart across the common edge and half a side along it.
-      const Vector3 d = (surface.point[b] - surface.point[a]).cwiseAbs() / side;
-      if (std::abs(d.head<2>().maxCoeff() - 1.5) < 1e-9 && std::abs(d.head<2>().minCoeff() - 0.5) < 1e-9)
-        truth.emplace_back(a, b);
-    }
-  std::sort(found.begin(), found.end());
-  CHECK(truth.size() > 40);
-  CHECK(found == truth);
-}
-
-TEST_CASE("cells of constant strength carry waves of their own length", "[rankine]") {
-  // Truth: the sum over the lattice of cells, wave along an axis and along the diagonal.
-  const auto exact = [](double kh, double direction) {
-    const auto sinc = [](double x) { return std::abs(x) < 1e-9 ? 1.0 : std::sin(x) / x; };
-    const double a = kh * std::cos(direction), b = kh * std::sin(direction), turn = 2.0 * std::numbers::pi;
-    double sum = 0.0;
-    for (int m = -60; m <= 60; ++m)
-      for (int n = -60; n <= 60; ++n)
-        sum += sinc(0.5 * (a + turn * m)) * sinc(0.5 * (b + turn * n)) * kh / std::hypot(a + turn * m, b + turn * n);
-    return 1.0 / sum;
-  };
-  for (const double kh : {0.1, 0.3, 0.628, 0.9})  // 63 to 7 cells in a wave
-    for (const double direction : {0.0, 0.25 * std::numbers::pi}) {
-      INFO(kh << " " << direction);
-      // The series' next term and the direction are worth 2.4e-4 at 0.9.
-      CHECK(wave_correction(kh) == Approx(exact(kh, direction)).margin(3e-4));
-    }
-  CHECK(exact(0.628, 0.0) - 1.0 == Approx(0.0129).margin(1e-4));  // what ten cells in a wave lack
 }
 
 TEST_CASE("where hulls lie, and what symmetry they have together", "[rankine]") {

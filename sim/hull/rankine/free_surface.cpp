@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <tuple>
 
 namespace stillhook::rankine {
 namespace {
@@ -97,7 +95,6 @@ class Builder {
               ny = static_cast<int>(std::ceil((high.y() - low.y()) / size));
     if (!symmetry_.x) low.x() = 0.5 * (low.x() + high.x() - nx * size);
     if (!symmetry_.y) low.y() = 0.5 * (low.y() + high.y() - ny * size);
-    origin_ = low;
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) divide(low + Point(i * size, j * size), size);
     join_slivers();
@@ -108,9 +105,7 @@ class Builder {
   struct Cell {
     std::vector<FlatPanel> pieces;
     Vector3 centroid = Vector3::Zero();
-    Point low = Point::Zero();
     double area = 0.0, size = 0.0;
-    bool whole() const { return std::abs(area - size * size) <= 1e-6 * size * size; }
     void measure() {
       area = 0.0;
       centroid.setZero();
@@ -132,7 +127,6 @@ class Builder {
     if (waterplane_.distance(middle) > grid_.width) return;
     Cell cell;
     cell.size = size;
-    cell.low = low;
     for (const auto& part : waterplane_.outside(low, low.array() + size))
       append_polygon(part, 1e-9 * size * size, cell.pieces);
     if (cell.pieces.empty()) return;
@@ -181,41 +175,13 @@ class Builder {
       result.distance.push_back(waterplane_.distance(result.point.back().head<2>()));
     }
     result.first.push_back(static_cast<int>(result.pieces.size()));
-    result.seams = seams();
     return result;
-  }
-
-  std::vector<Seam> seams() const {
-    // Number of a whole cell by its doublings and its place among cells of its size.
-    std::map<std::tuple<int, int, int>, int> at;
-    const auto place = [&](const Cell& cell) {
-      const auto count = [](double x) { return static_cast<int>(std::lround(x)); };
-      return std::tuple(count(std::log2(cell.size / grid_.near)), count((cell.low.x() - origin_.x()) / cell.size),
-                        count((cell.low.y() - origin_.y()) / cell.size));
-    };
-    int number = 0;
-    for (const Cell& cell : cells_) {
-      if (cell.pieces.empty()) continue;
-      if (cell.whole()) at[place(cell)] = number;
-      ++number;
-    }
-    std::vector<Seam> seams;
-    for (const auto& [where, small] : at) {
-      const auto [doublings, i, j] = where;
-      // One neighbour along each axis lies beyond the cell that this one is a quarter of.
-      for (const auto& [x, y] : {std::pair{i % 2 ? i + 1 : i - 1, j}, std::pair{i, j % 2 ? j + 1 : j - 1}}) {
-        if (x < 0 || y < 0) continue;
-        if (const auto large = at.find({doublings + 1, x / 2, y / 2}); large != at.end())
-          seams.push_back({small, large->second});
-      }
-    }
-    return seams;
   }
 
   FreeSurfaceGrid grid_;
   Symmetry symmetry_;
   Waterplane waterplane_;
-  Point low_, high_, origin_ = Point::Zero();
+  Point low_, high_;
   std::vector<Cell> cells_;
 };
 

@@ -28,11 +28,6 @@ struct FreeSurfaceGrid {
   double largest(double s) const;  // m, of a cell at distance s
 };
 
-/// A whole cell and a neighbour twice as long.
-struct Seam {
-  int small = 0, large = 0;
-};
-
 /// A panel made of one or several flat pieces, with one strength and one collocation point.
 struct SurfacePanels {
   std::vector<FlatPanel> pieces;
@@ -40,7 +35,6 @@ struct SurfacePanels {
   std::vector<Vector3> point;    // m, collocation point: the centroid
   std::vector<double> area;      // m2
   std::vector<double> distance;  // m, s of the collocation point
-  std::vector<Seam> seams;       // where whole cells double; each small cell that meets a large one
   std::vector<bool> in_gap;      // between two hulls (layout.h); empty = nowhere
   int size() const { return static_cast<int>(point.size()); }
 };

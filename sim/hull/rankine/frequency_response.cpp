@@ -1,7 +1,7 @@
 #include "sim/hull/rankine/frequency_response.h"
 
+
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,12 +12,6 @@ using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 
 constexpr int kMostIterations = 400;
-// Of the wave correction: 9 zeta(3)/(24 pi^3); above this k h the series is not used, cells are no waves' any more.
-// A line source of -kappa d(phi)/dn 3 s^2/12 along a seam of cells s and 2 s long, d(phi)/dn = step/(1.5 s), as strength of
-// the two cells that meet: 2/3 of it in the small one, of area s^2, and 1/3 in the large one, so that its middle lies on
-// the seam.
-constexpr double kSeamSmall = 1.0 / 9.0, kSeamLarge = 1.0 / 72.0;
-constexpr double kCubic = 0.01454, kLargestCell = 1.5;
 
 /// N X for complex X, both parts in one real product, in single precision: its 1e-7 is far below what GMRES is asked for,
 /// and half the memory is read. Rows of N are shared out in blocks of a fixed size, so the result does not depend on the
@@ -152,7 +146,7 @@ class Responses {
       response.surface.resize(surface_.size(), v[f].cols());
       for (int c = 0; c < v[f].cols(); ++c, ++k) {
         response.surface.col(c) = columns[k].solution(surface_.size());
-        const VectorXc q = strength(kappa[f], response.surface.col(c));
+        const VectorXc q = kappa[f].cwiseProduct(response.surface.col(c));
         response.hull.col(c) = problem_.C * q + problem_.hull_response * v[f].col(c);
         response.iterations = std::max(response.iterations, columns[k].iterations());
       }
@@ -166,20 +160,9 @@ class Responses {
       const double s = surface_.distance[i] / beach_.width;
       const double gap = !surface_.in_gap.empty() && surface_.in_gap[i] ? beach_.gap : 0.0;
       const Complex w(frequency, (beach_.strength * s * s + gap) * frequency);
-      kappa(i) = w * w / gravity_ * wave_correction(frequency * frequency / gravity_ * std::sqrt(surface_.area[i]));
+      kappa(i) = w * w / gravity_;
     }
     return kappa;
-  }
-
-  /// q of the cells: kappa phi, and what the seams between cells of two sizes lack.
-  VectorXc strength(const VectorXc& kappa, const VectorXc& phi) const {
-    VectorXc sum = phi;
-    for (const Seam& seam : surface_.seams) {
-      const Complex step = phi(seam.large) - phi(seam.small);
-      sum(seam.small) -= kSeamSmall * step;
-      sum(seam.large) -= kSeamLarge * step;
-    }
-    return kappa.cwiseProduct(sum);
   }
 
   void solve(std::span<const double> frequencies, const std::vector<VectorXc>& kappa,
@@ -193,7 +176,7 @@ class Responses {
       if (iteration == kMostIterations) throw not_converged(frequencies[frequency_of[active.front()]]);
       in.resize(active.size());
       for (std::size_t a = 0; a < active.size(); ++a)
-        in[a] = strength(kappa[frequency_of[active[a]]], columns[active[a]].direction());
+        in[a] = kappa[frequency_of[active[a]]].cwiseProduct(columns[active[a]].direction());
       product_(in, out);
 #pragma omp parallel for schedule(dynamic, 1)
       for (std::size_t a = 0; a < active.size(); ++a) {
@@ -211,11 +194,6 @@ class Responses {
 };
 
 }  // namespace
-
-double wave_correction(double kh) {
-  const double x = std::min(kh, kLargestCell);
-  return 1.0 + x * x / 24.0 - kCubic * x * x * x;
-}
 
 std::vector<FrequencyResponse> frequency_responses(const BoundaryClass& problem, const SurfacePanels& surface,
                                                    const Beach& beach, double gravity,

@@ -10,12 +10,6 @@
 // it is of the second kind: N smooths, so GMRES (Saad & Schultz 1986) needs about as many iterations as waves fit on the
 // surface. Frequencies and their columns of v advance together, so that each pass through N serves all of them, as many as
 // kColumnsAtOnce: what GMRES keeps of each is what limits their number.
-//
-// q is constant in a cell and phi taken at its middle. That leaves out -div((h^2/12) grad(phi)) + (h^2/24) div grad(phi),
-// h the side of the cell, and what neighbours do to each other: waves of wave number kappa/c(kappa h) instead of kappa,
-// 1.3 % too long with ten cells in a wave, so kappa is multiplied by c (wave_correction()). And where h doubles, a line
-// source of -kappa d(phi)/dn [h^2]/12, without which such a seam sends back a wave of k^2 [h^2]/12, 2.5 % of the
-// amplitude with ten of the larger cells in a wave: it is added to the two cells that meet.
 #pragma once
 
 #include <complex>
@@ -36,14 +30,6 @@ struct Beach {
   double strength = 0.9;  // 1, nu0/w: the strength that suits each frequency (see docs/validation.md)
   double gap = 0.0;       // 1, nu/w between two hulls, where potential theory lets the water swing without loss
 };
-
-/// c: what the strength of cells, h wide, must be multiplied with for waves of wave number k; kh = k h, from 0 to 1.5.
-///
-/// A sheet of square cells with q constant in each and phi at their middles has, for a wave along x,
-///   1/c = k/(2 pi) sum_m sinc(k_m h/2) 2 pi/|k_m|,   k_m = k + 2 pi m/h,
-/// and for others a sum over both axes, which differs by 2e-4 at most up to kh = 0.9. In powers of kh
-///   c = 1 + (kh)^2/24 - a (kh)^3,   a = 1/(2 pi^3) sum (-1)^(m+1)/m^3 = 9 zeta(3)/(24 pi^3) = 0.01454 .
-double wave_correction(double kh);
 
 struct FrequencyResponse {
   double frequency = 0.0;  // rad/s
