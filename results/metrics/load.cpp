@@ -1,4 +1,6 @@
 // Where the load is in each phase.
+#include <cmath>
+
 #include "results/metrics/channel_set.h"
 #include "results/metrics/metric_row.h"
 #include "sim/spatial/constants.h"
@@ -43,10 +45,42 @@ MetricRow mean_row(const LoadChannel& kind, const char* description) {
   return row;
 }
 
+/// Rms of the horizontal distance from the static path over the hanging ones of some phases.
+Peak rms_motion(MetricRun& run, const std::string&, const Phases& phases) {
+  const RunView& view = run.view();
+  const std::string x = channel_of_load(run, body_channels::x), y = channel_of_load(run, body_channels::y);
+  const auto xs = view.series(x), ys = view.series(y);
+  if (xs.empty() || ys.empty()) return {};
+  double sum = 0.0, time = 0.0;
+  for (const std::size_t p : with_stage(view, phases, {PhaseSpec::Stage::hanging})) {
+    const RunView::Range range = view.samples(p);
+    if (range.last < range.first + 2) continue;
+    const StaticPath static_x = view.static_path(p, x), static_y = view.static_path(p, y);
+    sum += view.integral(range, [&](std::size_t i) {
+      const double progress = view.progress(p, view.run().time[i]);
+      return std::pow(xs[i] - static_x.at(progress), 2) + std::pow(ys[i] - static_y.at(progress), 2);
+    });
+    time += view.run().time[range.last - 1] - view.run().time[range.first];
+  }
+  return time > 0.0 ? Peak{std::sqrt(sum / time), kNaN} : Peak{};
+}
+
+MetricRow motion_row() {
+  MetricRow row =
+      load_row("motion", body_channels::x, Quantity::length,
+               "rms horizontal motion of the load in the world about its static path, over the hanging phases; "
+               "sway_rms is that relative to the boom tips");
+  row.name = "load_motion_rms";
+  row.element = MetricElement::none;
+  row.value = rms_motion;
+  return row;
+}
+
 }  // namespace
 
 std::vector<MetricRow> load_metrics() {
-  return {range_row(body_channels::x, Quantity::length, "peak-to-peak position of the load fore and aft in a phase"),
+  return {motion_row(),
+          range_row(body_channels::x, Quantity::length, "peak-to-peak position of the load fore and aft in a phase"),
           range_row(body_channels::y, Quantity::length, "peak-to-peak position of the load athwart in a phase"),
           range_row(body_channels::z, Quantity::length, "peak-to-peak height of the load in a phase"),
           range_row(body_channels::roll, Quantity::angle, "peak-to-peak roll of the load in a phase"),

@@ -35,6 +35,14 @@ TEST_CASE("sway is the swing about the static path over whole periods") {
   CHECK(m.find("sway_rms.settle") == nullptr);  // nothing hangs there
 }
 
+TEST_CASE("the motion of the load in the world is that about its static path") {
+  const SyntheticLift lift;
+  const Metrics m = compute_metrics(lift.specification, lift.trajectory);
+  // Sine and cosine over whole periods about a path that is straight in each phase.
+  const double rms = std::sqrt(0.5 * (std::pow(SyntheticLift::kSwayX, 2) + std::pow(SyntheticLift::kSwayY, 2)));
+  CHECK(m.value("load_motion_rms") == Approx(rms).epsilon(1e-3));
+}
+
 TEST_CASE("ranges are peak to peak in a phase, means are over time") {
   const SyntheticLift lift;
   const Metrics m = compute_metrics(lift.specification, lift.trajectory);
