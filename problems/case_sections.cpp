@@ -1,48 +1,54 @@
 #include "problems/case_sections.h"
 
 #include <algorithm>
-#include <array>
+#include <vector>
+
+#include "sim/specification.h"
 
 namespace stillhook {
 namespace {
 
-constexpr std::array kSections = {
-    CaseSection{"name", false, true},
-    CaseSection{"title", false, false},  // of reports, like the next five
-    CaseSection{"project", false, false},
-    CaseSection{"revision", false, false},
-    CaseSection{"author", false, false},
-    CaseSection{"checked_by", false, false},
-    CaseSection{"north_deg", false, false},
-    CaseSection{"sea", true, true},
-    CaseSection{"bodies", true, true},
-    CaseSection{"panel_method", true, true},
-    CaseSection{"joints", true, true},
-    CaseSection{"drives", true, true},
-    CaseSection{"wires", true, true},
-    CaseSection{"taglines", true, true},
-    CaseSection{"moorings", true, true},
-    CaseSection{"restoring", true, true},
-    CaseSection{"contacts", true, true},
-    CaseSection{"ballast", true, true},
-    CaseSection{"operation", true, true},
-    CaseSection{"poses", false, false},  // reported, not simulated
-    CaseSection{"clearances", true, true},
-    CaseSection{"limits", false, true},
-    CaseSection{"solver", false, true},
-    CaseSection{"plan", false, true},  // but for its budget, see store_identity()
-    CaseSection{"tune", false, false},
-    CaseSection{"fit", false, false},
-};
+/// Every section; those of force elements come from the list of their kinds.
+std::vector<CaseSection> build_sections() {
+  std::vector<CaseSection> all = {
+      {"name", false, true},
+      {"title", false, false},  // of reports, like the next five
+      {"project", false, false},
+      {"revision", false, false},
+      {"author", false, false},
+      {"checked_by", false, false},
+      {"north_deg", false, false},
+      {"sea", true, true},
+      {"bodies", true, true},
+      {"panel_method", true, true},
+      {"joints", true, true},
+      {"drives", true, true},
+      {"operation", true, true},
+      {"poses", false, false},  // reported, not simulated
+      {"clearances", true, true},
+      {"limits", false, true},
+      {"solver", false, true},
+      {"plan", false, true},  // but for its budget, see store_identity()
+      {"tune", false, false},
+      {"fit", false, false},
+      {"wind", true, true},
+  };
+  for_each_element_kind([&](const auto& kind) { all.push_back({kind.section, true, true}); });
+  return all;
+}
 
 }  // namespace
 
-std::span<const CaseSection> case_sections() { return kSections; }
+std::span<const CaseSection> case_sections() {
+  static const std::vector<CaseSection> sections = build_sections();
+  return sections;
+}
 
 bool may_be_varied(const std::string& section) {
+  const std::span<const CaseSection> sections = case_sections();
   const auto found =
-      std::find_if(kSections.begin(), kSections.end(), [&](const CaseSection& s) { return s.key == section; });
-  return found == kSections.end() || found->varied;  // a key that does not exist is told as that
+      std::find_if(sections.begin(), sections.end(), [&](const CaseSection& s) { return s.key == section; });
+  return found == sections.end() || found->varied;  // a key that does not exist is told as that
 }
 
 }  // namespace stillhook

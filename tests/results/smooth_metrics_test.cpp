@@ -111,16 +111,18 @@ TEST_CASE("a larger amplification outside the hanging phases counts as it is", "
 
 TEST_CASE("smooth sway is taken over a window that ends between samples", "[metrics][smooth]") {
   SyntheticLift lift;
-  const double w = SyntheticLift::kSwing, A = SyntheticLift::kSwayX, from = 125.07, to = 416.67;
+  const double w = SyntheticLift::kSwing, x = std::pow(SyntheticLift::kSwayX, 2), y = std::pow(SyntheticLift::kSwayY, 2);
+  const double from = 125.07, to = 416.67;
   PhaseRecord& phase = lift.trajectory.phases[2];
   REQUIRE(phase.name == "hoist_up");
-  CHECK(smooth_of(lift, "sway_x_rms.hoist_up") == Approx(A / std::sqrt(2.0)).epsilon(1e-9));  // whole periods
+  CHECK(smooth_of(lift, "sway_rms.hoist_up") == Approx(std::sqrt(0.5 * (x + y))).epsilon(1e-9));  // whole periods
   phase.start = from;
   phase.end = to;
-  const double mean_square = 0.5 * A * A * (1.0 - (std::sin(2.0 * w * to) - std::sin(2.0 * w * from)) / (2.0 * w * (to - from)));
+  const double broken = (std::sin(2.0 * w * to) - std::sin(2.0 * w * from)) / (2.0 * w * (to - from));
   // Straight lines between samples: (2 w h)^2 / 12 of the broken period, 5e-6 of the whole. A window of whole samples
-  // would be off by 1e-4.
-  CHECK(smooth_of(lift, "sway_x_rms.hoist_up") == Approx(std::sqrt(mean_square)).epsilon(1e-5));
+  // would be off by 5e-5.
+  CHECK(smooth_of(lift, "sway_rms.hoist_up") ==
+        Approx(std::sqrt(0.5 * x * (1.0 - broken) + 0.5 * y * (1.0 + broken))).epsilon(1e-5));
 }
 
 TEST_CASE("the smooth peak of sway is the log-sum-exp of its square", "[metrics][smooth]") {
