@@ -1,4 +1,6 @@
 // Wind in a case: the wind itself and the areas that it blows on.
+#include <fmt/core.h>
+
 #include "problems/case_format.h"
 #include "problems/entry_check.h"
 
@@ -52,6 +54,10 @@ void check_entry(const WindAreaSpec& area, EntryCheck& check) {
   if (!(area.height || area.areas.head<2>().maxCoeff() > 0.0))
     check.report("height_m", "is needed with an area across z alone");
   if (!check.specification().wind.blows()) check.report("", "meets no wind: the case has no [wind], or its speed is 0");
+  const BodySpec* body = entry_named(check.specification().bodies, area.body);
+  if (body && body->moved_by_sea())
+    check.report("body", fmt::format("\"{}\" moves by displacement RAOs, which no wind changes: leave the entry out",
+                                     area.body));
 }
 
 }  // namespace stillhook

@@ -11,6 +11,8 @@ TEST_CASE("a search goes on after changes of what it does not depend on, and of 
     return store_identity(read_case(lift, overrides)).problem;
   };
   const std::string as_it_is = problem({});
+  // Evaluations keep metrics by place: a program that knows others must not read them.
+  CHECK(as_it_is.find(" sway_rms ") != std::string::npos);
   for (const Override& same : std::vector<Override>{{"title", "\"Another title\""},
                                                     {"fit.iterations", "7"},
                                                     {"fit.cross_validate", "false"},

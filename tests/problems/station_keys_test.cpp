@@ -80,6 +80,9 @@ TEST_CASE("a spring to the world from a case", "[stations]") {
                                      "[0.0,0.0,1.0,0.0,0.0,0.0],[0.0,0.0,0.0,1.0,0.0,0.0],[0.0,0.0,0.0,0.0,1.0,0.0],"
                                      "[5.0,0.0,0.0,0.0,0.0,1.0]]\n"),
       Contains("symmetric"));
+  CHECK_THAT(said("small_rao_lift.toml", "\n[wind]\nspeed_m_per_s = 10.0\nfrom_deg = 0.0\n\n[[wind_areas]]\nname = \"deck\"\n"
+                                         "body = \"barge\"\nareas_m2 = [50.0, 200.0, 0.0]\n"),
+             Contains("which no wind changes"));
   CHECK_THAT(said("small_rao_lift.toml", head + "stiffness_kN_per_m = [10.0, 20.0, 0.0]\n"),
              Contains("moves by displacement RAOs"));
 }

@@ -94,6 +94,30 @@ TEST_CASE("a free body comes up to the wind's speed", "[wind]") {
   CHECK(run.values[static_cast<std::size_t>(run.find("sail.force_x"))].front() == Approx(k * U * U));
 }
 
+TEST_CASE("a load on a fall hangs in the direction of its weight and the wind", "[wind]") {
+  // F = 1/2 rho C A U^2 on the centre of gravity, which hangs the stretched fall and 4 m below the upper end. The load
+  // turns by the angle as well, so that along its own axes the wind is weaker by the square of the cosine: 2e-4 of F.
+  Specification s = free_body(1e5, 80.0);
+  s.sea.gravity = 9.80665;
+  s.wind.speed = 15.0;
+  s.bodies[0].position = {0.0, 0.0, 10.0};
+  WireSpec fall;
+  fall.name = "fall";
+  fall.role = WireSpec::Role::hoist;
+  fall.from = "world";
+  fall.to = "load";
+  fall.point_from = {0.0, 0.0, 40.0};
+  fall.point_to = {0.0, 0.0, 4.0};
+  fall.axial_stiffness = 2e8;
+  fall.unstretched_length = 26.0;
+  s.wires.push_back(fall);
+  s.solver.static_start = true;
+  const Model model = build_model(s);
+  const double F = 0.5 * 1.226 * 1.2 * 80.0 * 15.0 * 15.0, W = 1e5 * 9.80665, T = std::hypot(F, W);
+  const double off = (26.0 * (1.0 + T / 2e8) + 4.0) * F / T;
+  CHECK(model.initial_state().body[0].p_WC.x() == Approx(off).epsilon(4e-4));
+}
+
 TEST_CASE("in air at rest wind areas only brake", "[wind]") {
   std::mt19937 random(3);
   WindArea still(area_of({30.0, 55.0, 20.0}), wind_of(0.0), BodyPoint{0, {0.5, -0.2, 0.4}});

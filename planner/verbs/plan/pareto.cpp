@@ -1,12 +1,12 @@
 #include "planner/verbs/plan/pareto.h"
 
-#include "planner/verbs/plan/plan_results.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+
+#include "planner/verbs/plan/plan_results.h"
 
 namespace stillhook {
 namespace {

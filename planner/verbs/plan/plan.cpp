@@ -205,6 +205,10 @@ StoreIdentity store_identity(const Case& c) {
   for (const BodySpec& body : c.specification.bodies)
     for (const std::string& file : {body.hull.mesh_file, body.hydrodynamics.coefficient_file})
       if (!file.empty()) identity.problem += "# " + file + " " + content_hash(file) + "\n";
+  // An evaluation keeps its metrics by their place in this list.
+  identity.problem += "# metrics";
+  for (const std::string& name : metric_names(c.specification)) identity.problem += " " + name;
+  identity.problem += "\n";
   return identity;
 }
 

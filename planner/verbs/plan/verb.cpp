@@ -198,9 +198,11 @@ class PlanVerb final : public Verb {
   std::vector<RunFile> files() const override {
     return {{"plan.toml", "The case with the plan in it."},
             {"evaluations.sqlite", "Every evaluation of the search, from which --resume goes on."},
-            {"evaluations.sqlite-*", "What SQLite keeps beside it while the search runs."},
+            {"evaluations.sqlite-wal", "What SQLite keeps beside it while the search runs,"},
+            {"evaluations.sqlite-shm", "and shares."},
             {"front.sqlite", "The same for a Pareto front."},
-            {"front.sqlite-*", "What SQLite keeps beside it."},
+            {"front.sqlite-wal", "What SQLite keeps beside it,"},
+            {"front.sqlite-shm", "and shares."},
             {"judgement.json", "Certificate, sensitivities and prices of the limits, for a report made again."}};
   }
 
