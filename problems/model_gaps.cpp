@@ -7,7 +7,7 @@
 
 #include "sim/crane_parts.h"
 #include "sim/hull/hydrostatics.h"
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 #include "sim/lifting/wire.h"
 #include "sim/modes.h"
 #include "sim/spatial/constants.h"

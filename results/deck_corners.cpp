@@ -6,7 +6,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/mesh/mesh_file.h"
 
 namespace stillhook {
 namespace {

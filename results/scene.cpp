@@ -5,7 +5,7 @@
 
 #include "results/scene_builder.h"
 #include "sim/crane_parts.h"
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/mesh/mesh_file.h"
 
 namespace stillhook {
 namespace {

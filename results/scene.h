@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 #include "sim/trajectory.h"
 
 namespace stillhook {

@@ -4,11 +4,10 @@
 #include <limits>
 
 #include "sim/crane_parts.h"
-#include "sim/hull/mesh.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/mesh/mesh.h"
 #include "sim/lifting/wire.h"
 #include "sim/model_builder.h"
-#include "sim/lifting/wire.h"
 #include "sim/multibody/relaxation.h"
 #include "sim/number_text.h"
 #include "sim/start_pose.h"

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "sim/hull/afloat.h"
+#include "sim/hull/coefficients/sea_band.h"
 #include "sim/hull/damping.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/immersion.h"
 #include "sim/hull/parting_hydrodynamics.h"
-#include "sim/hull/sea_band.h"
 #include "sim/model_builder.h"
 #include "sim/multibody/assembly.h"
 

@@ -8,6 +8,7 @@
 #include "sim/multibody/assembly.h"
 #include "sim/multibody/joint_drive.h"
 #include "sim/number_text.h"
+#include "sim/specification.h"
 #include "sim/start_pose.h"
 
 namespace stillhook {

@@ -1,4 +1,5 @@
 #include "sim/crane_parts.h"
+#include "sim/specification.h"
 
 #include <algorithm>
 

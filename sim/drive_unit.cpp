@@ -1,4 +1,5 @@
 #include "sim/drive_unit.h"
+#include "sim/specification.h"
 
 namespace stillhook {
 

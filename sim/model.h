@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/hull/coefficient_source.h"
+#include "sim/hull/coefficients/coefficient_source.h"
 #include "sim/multibody/force_element.h"
 #include "sim/multibody/system.h"
 #include "sim/sea/wave_field.h"

@@ -7,11 +7,12 @@
 #include <stdexcept>
 
 #include "sim/hull/afloat.h"
+#include "sim/hull/coefficients/rao_table.h"
 #include "sim/hull/heading_frame.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
-#include "sim/hull/rao_table.h"
 #include "sim/spatial/constants.h"
+#include "sim/specification.h"
 
 namespace stillhook {
 namespace {

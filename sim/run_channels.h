@@ -4,8 +4,11 @@
 
 #include <array>
 
+#include "sim/body_spec.h"
 #include "sim/channel_kind.h"
-#include "sim/specification.h"
+#include "sim/lifting/gear_spec.h"
+#include "sim/multibody/joint_spec.h"
+#include "sim/sea/sea_spec.h"
 
 namespace stillhook {
 

@@ -8,6 +8,7 @@
 #include "sim/number_text.h"
 #include "sim/operation_clock.h"
 #include "sim/recorder.h"
+#include "sim/specification.h"
 #include "sim/tangent_pass.h"
 
 namespace stillhook {

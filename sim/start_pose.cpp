@@ -9,6 +9,7 @@
 #include "sim/lifting/wire.h"
 #include "sim/multibody/assembly.h"
 #include "sim/spatial/constants.h"
+#include "sim/specification.h"
 
 namespace stillhook {
 namespace {

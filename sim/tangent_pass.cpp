@@ -1,8 +1,9 @@
-#include "sim/lifting/contact.h"
 #include "sim/tangent_pass.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "sim/lifting/contact.h"
 
 namespace stillhook {
 
@@ -158,7 +159,7 @@ void TangentPass::end_step(SystemState& state, double h) {
 bool TangentPass::depends_directly(int j, const Part& part) const {
   const auto& sides = drives_[static_cast<std::size_t>(j)];
   const auto moves = [&](int d) {
-    return d >= 0 && (sides[0][d].position != sides[1][d].position || sides[0][d].rate != sides[1][d].rate);
+    return sides[0][d].position != sides[1][d].position || sides[0][d].rate != sides[1][d].rate;
   };
   switch (part.source) {
     case Source::body: {
@@ -168,7 +169,8 @@ bool TangentPass::depends_directly(int j, const Part& part) const {
       return cog(0) != cog(1);
     }
     case Source::element:
-      return hht_->differs(j, part.index) || moves(model_.system().elements[part.index]->drive());
+      return hht_->differs(j, part.index) ||
+             std::ranges::any_of(model_.system().elements[part.index]->drives(), moves);
     case Source::drive:
       return moves(part.index);
     case Source::joint:

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/cli/progress.h"
-#include "sim/hull/coefficient_source.h"
+#include "sim/hull/coefficients/coefficient_source.h"
 
 namespace stillhook {
 

@@ -19,8 +19,9 @@
 #include <array>
 
 #include "sim/channel_kind.h"
+#include "sim/environment/wind_spec.h"
+#include "sim/error.h"
 #include "sim/multibody/point.h"
-#include "sim/specification.h"
 
 namespace stillhook {
 

@@ -2,6 +2,7 @@
 
 #include "sim/hull/immersion.h"
 #include "sim/multibody/assembly.h"
+#include "sim/specification.h"
 
 namespace stillhook {
 

@@ -1,7 +1,7 @@
 // How a hull of a lift floats: what its coefficients are computed for.
 #pragma once
 
-#include "sim/hull/coefficient_source.h"
+#include "sim/hull/coefficients/coefficient_source.h"
 #include "sim/multibody/system.h"
 
 namespace stillhook {

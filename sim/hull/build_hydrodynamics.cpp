@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "sim/hull/hydrodynamics.h"
-#include "sim/hull/radiation_march.h"
-#include "sim/hull/radiation_memory.h"
-#include "sim/hull/state_space_cache.h"
-#include "sim/hull/state_space_radiation.h"
+#include "sim/hull/radiation/radiation_march.h"
+#include "sim/hull/radiation/radiation_memory.h"
+#include "sim/hull/radiation/state_space_cache.h"
+#include "sim/hull/radiation/state_space_radiation.h"
 #include "sim/number_text.h"
 
 namespace stillhook {

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/hull/coefficients.h"
+#include "sim/hull/coefficients/coefficients.h"
 #include "sim/hull/linear_froude_krylov.h"
 #include "sim/sea/wave_field.h"
 

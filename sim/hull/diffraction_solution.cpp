@@ -1,7 +1,7 @@
 // The diffraction problem solved for itself, which Haskind's relation is checked against.
-#include "sim/hull/panel_method.h"
 #include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/hull_modes.h"
+#include "sim/hull/rankine/panel_method.h"
 
 namespace stillhook {
 

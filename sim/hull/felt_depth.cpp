@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/hull/database_frame.h"
+#include "sim/hull/coefficients/database_frame.h"
 
 namespace stillhook {
 namespace {

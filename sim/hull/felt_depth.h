@@ -10,7 +10,7 @@
 
 #include <optional>
 
-#include "sim/hull/coefficients.h"
+#include "sim/hull/coefficients/coefficients.h"
 
 namespace stillhook {
 

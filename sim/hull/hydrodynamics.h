@@ -12,12 +12,14 @@
 #include <memory>
 #include <vector>
 
-#include "sim/hull/coefficient_source.h"
+#include "sim/body_spec.h"
+#include "sim/error.h"
+#include "sim/hull/coefficients/coefficient_source.h"
 #include "sim/hull/damping.h"
 #include "sim/hull/diffraction.h"
 #include "sim/hull/heading_frame.h"
-#include "sim/hull/radiation.h"
-#include "sim/specification.h"
+#include "sim/hull/radiation/radiation.h"
+#include "sim/sea/sea_spec.h"
 
 namespace stillhook {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/hull/clipped_panel.h"
-#include "sim/hull/cut_panels.h"
-#include "sim/hull/hull_mesh.h"
-#include "sim/hull/panel_strips.h"
+#include "sim/hull/mesh/clipped_panel.h"
+#include "sim/hull/mesh/cut_panels.h"
+#include "sim/hull/mesh/hull_mesh.h"
+#include "sim/hull/rankine/panel_strips.h"
 #include "sim/hull/wave_window.h"
 
 namespace stillhook {

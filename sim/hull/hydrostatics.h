@@ -16,7 +16,7 @@
 #include <memory>
 
 #include "sim/channel_kind.h"
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 #include "sim/multibody/force_element.h"
 #include "sim/sea/wave_field.h"
 

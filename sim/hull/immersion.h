@@ -9,7 +9,7 @@
 //   GM = I/V + z_B - z_G    (I second moment of the waterplane about the axis through its centroid)
 #pragma once
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 
 namespace stillhook {
 

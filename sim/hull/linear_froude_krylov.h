@@ -15,7 +15,7 @@
 #include <complex>
 #include <vector>
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 
 namespace stillhook {
 

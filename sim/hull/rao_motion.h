@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/hull/rao_table.h"
+#include "sim/hull/coefficients/rao_table.h"
 #include "sim/multibody/prescribed_motion.h"
 #include "sim/sea/wave_field.h"
 

@@ -8,7 +8,7 @@
 // changes an oscillation by e a radian: such a mode has no radiation, neither its own nor shared with others.
 #pragma once
 
-#include "sim/hull/coefficients.h"
+#include "sim/hull/coefficients/coefficients.h"
 
 namespace stillhook {
 

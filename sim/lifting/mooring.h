@@ -61,7 +61,7 @@ class Mooring final : public ForceElement {
   /// Where the anchor lies at drive position zero, in W.
   const Vector3& anchor() const { return anchor_; }
 
-  int drive() const override { return options_.tow_drive; }
+  std::span<const int> drives() const override { return drive_or_none(options_.tow_drive); }
   bool same_as(const ForceElement& other) const override;
   /// Where Newton's method starts does not matter to where it ends.
   bool has_history() const override { return false; }

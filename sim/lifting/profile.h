@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "sim/specification.h"
+#include "sim/operation_spec.h"
 
 namespace stillhook {
 

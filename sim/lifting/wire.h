@@ -79,7 +79,7 @@ class Wire final : public ForceElement {
   double unstretched_length(const Instant& now) const;
   double tension(const Instant& now) const;  // N
 
-  int drive() const override { return options_.drive; }
+  std::span<const int> drives() const override { return drive_or_none(options_.drive); }
   bool same_as(const ForceElement& other) const override;
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   void add_jacobian(const Instant& now, double h, Memory m, JacobianSum& out) const override;

@@ -45,6 +45,11 @@ struct Instant {
   bool on(bool condition) const { return on_branch(branches, condition); }
 };
 
+/// The drives of an element that has one or, where the index is -1, none. The index must live as long as the span.
+inline std::span<const int> drive_or_none(const int& index) {
+  return {&index, static_cast<std::size_t>(index >= 0 ? 1 : 0)};
+}
+
 /// What an element keeps between steps (state, part of State and copied with it) and may scribble on (scratch).
 struct Memory {
   std::span<double> state;
@@ -122,8 +127,8 @@ class ForceElement {
   const std::string& name() const { return name_; }
   virtual int state_size() const { return 0; }
   virtual int scratch_size() const { return 0; }
-  /// The drive whose position and rate the forces depend on, -1 if none.
-  virtual int drive() const { return -1; }
+  /// Indices of the drives whose positions and rates the forces depend on.
+  virtual std::span<const int> drives() const { return {}; }
   /// True if the other element gives the same forces in every state: same kind, same parameters. False is always safe.
   virtual bool same_as(const ForceElement&) const { return false; }
 

@@ -61,7 +61,7 @@ HhtTangent::HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins)
   const int states = system_.element_state_size();
   explicit_.assign(twins_.size(), {VectorX::Zero(system_.coordinates()), VectorX::Zero(system_.constraints()),
                                    VectorX::Zero(states), false});
-  by_drive_.resize(system_.elements.size());
+  by_drives_.resize(system_.elements.size());
   taken_.resize(system_.elements.size());
   column_.assign(twins_.size(), -1);
   of_history_.assign(static_cast<std::size_t>(states), false);
@@ -71,7 +71,7 @@ HhtTangent::HhtTangent(HhtStepper& stepper, std::vector<SystemTwin> twins)
                   true);
   change_ = VectorX::Zero(states);
   for (std::size_t e = 0; e < system_.elements.size(); ++e)
-    if (system_.elements[e]->drive() >= 0) driven_.push_back(static_cast<int>(e));
+    if (!system_.elements[e]->drives().empty()) driven_.push_back(static_cast<int>(e));
   scratch_ = system_.make_workspace().element_scratch;
   displaced_.element_state.resize(static_cast<std::size_t>(states));
   low_state_.resize(static_cast<std::size_t>(states));

@@ -100,10 +100,13 @@ class HhtTangent {
     Branches branches;
     bool known = false;
   };
-  /// How the force of an element changes with its drive.
-  struct ByDrive {
-    VectorX position, rate;
-    bool known = false;  // in this step
+  /// How the force of an element changes with its drives.
+  struct ByDrives {
+    struct Derivative {
+      VectorX position, rate;
+    };
+    std::vector<Derivative> derivatives;  // in the order of its drives
+    bool known = false;                   // in this step
   };
 
   static Twin compare(const MultibodySystem& base, const SystemTwin& twin);
@@ -121,7 +124,7 @@ class HhtTangent {
   void step_along(const ForceElement& of, int element, double h, std::span<const DriveState> before,
                   std::span<const DriveState> now, std::vector<double>& scratch);
   void find_branches(int element, double h);
-  const ByDrive& by_drive(int element, double h);
+  const ByDrives& by_drives(int element, double h);
   void add_bodies(int j);
   void advance_states(double h);
   void states_by_differences(double h);
@@ -141,9 +144,9 @@ class HhtTangent {
   BodyChange from_;                 // of the bodies at the beginning of the step
   MatrixX a_start_;                 // of the acceleration that the step starts from
   std::vector<Explicit> explicit_;  // [direction]
-  std::vector<ByDrive> by_drive_;   // [element]
+  std::vector<ByDrives> by_drives_;  // [element]
   std::vector<Taken> taken_;        // [element]
-  std::vector<int> driven_;         // elements with a drive
+  std::vector<int> driven_;         // elements with drives
   std::vector<DriveState> drives_;
   VectorX low_force_;              // of an element, on a twin's lower side
   std::vector<double> low_state_;  // of all elements

@@ -73,7 +73,7 @@ void HhtTangent::history_by_differences(double h) {
 }
 
 void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDrives& now) {
-  for (ByDrive& derivative : by_drive_) derivative.known = false;
+  for (ByDrives& of : by_drives_) of.known = false;
   for (Taken& taken : taken_) taken.known = false;
   for (int j = 0; j < directions(); ++j) {
     Explicit& sum = explicit_[j];
@@ -87,9 +87,11 @@ void HhtTangent::add_explicit(double h, const TwinDrives& before, const TwinDriv
     const SideDrives& drives = now[static_cast<std::size_t>(j)];
     for (const int e : twin.elements) add_element(e, j, h, before[static_cast<std::size_t>(j)], drives);
     for (const int e : driven_) {
-      const std::size_t d = static_cast<std::size_t>(system_.elements[e]->drive());
-      if (drives[0][d].position == drives[1][d].position && drives[0][d].rate == drives[1][d].rate) continue;
-      if (differs(j, e)) continue;
+      const auto moves = [&](int d) {
+        const std::size_t i = static_cast<std::size_t>(d);
+        return drives[0][i].position != drives[1][i].position || drives[0][i].rate != drives[1][i].rate;
+      };
+      if (std::ranges::none_of(system_.elements[e]->drives(), moves) || differs(j, e)) continue;
       if (system_.elements[e]->has_history())
         add_element(e, j, h, before[static_cast<std::size_t>(j)], drives);
       else
@@ -145,11 +147,10 @@ void HhtTangent::add_element(int e, int j, double h, const SideDrives& before, c
     sum.state[k] += (displaced_.element_state[k] - low_state_[k]) / twin.of.width;
 }
 
-const HhtTangent::ByDrive& HhtTangent::by_drive(int e, double h) {
-  ByDrive& derivative = by_drive_[e];
-  if (derivative.known) return derivative;
+const HhtTangent::ByDrives& HhtTangent::by_drives(int e, double h) {
+  ByDrives& of = by_drives_[e];
+  if (of.known) return of;
   find_branches(e, h);
-  const std::size_t d = static_cast<std::size_t>(system_.elements[e]->drive());
   drives_ = middle_.drive;
   const auto slope = [&](double& value, VectorX& out) {
     const double at = value;
@@ -162,19 +163,26 @@ const HhtTangent::ByDrive& HhtTangent::by_drive(int e, double h) {
     out = (forces_.value() - low_force_) / (2.0 * kSmall);
     value = at;
   };
-  slope(drives_[d].position, derivative.position);
-  slope(drives_[d].rate, derivative.rate);
-  derivative.known = true;
-  return derivative;
+  const std::span<const int> drives = system_.elements[e]->drives();
+  of.derivatives.resize(drives.size());
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    slope(drives_[drives[k]].position, of.derivatives[k].position);
+    slope(drives_[drives[k]].rate, of.derivatives[k].rate);
+  }
+  of.known = true;
+  return of;
 }
 
-// The drive of an element that is the same on both sides.
+// The drives of an element that is the same on both sides.
 void HhtTangent::add_drive(int e, int j, double h, const SideDrives& now) {
-  const ByDrive& derivative = by_drive(e, h);
-  const std::size_t d = static_cast<std::size_t>(system_.elements[e]->drive());
+  const ByDrives& of = by_drives(e, h);
+  const std::span<const int> drives = system_.elements[e]->drives();
   const double width = twins_[j].of.width;
-  explicit_[j].force += ((now[1][d].position - now[0][d].position) / width) * derivative.position +
-                        ((now[1][d].rate - now[0][d].rate) / width) * derivative.rate;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const DriveState &low = now[0][drives[k]], &high = now[1][drives[k]];
+    explicit_[j].force += ((high.position - low.position) / width) * of.derivatives[k].position +
+                          ((high.rate - low.rate) / width) * of.derivatives[k].rate;
+  }
 }
 
 void HhtTangent::add_bodies(int j) {

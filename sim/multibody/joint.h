@@ -18,9 +18,9 @@
 #include <span>
 #include <string>
 
+#include "sim/multibody/joint_spec.h"
 #include "sim/multibody/point.h"
 #include "sim/multibody/prescribed_motion.h"
-#include "sim/specification.h"
 
 namespace stillhook {
 

@@ -12,7 +12,7 @@ class JointDrive : public ForceElement {
   /// stiffness N m/rad or N/m, damping per rad/s or m/s, rest rad or m; drive index or -1.
   JointDrive(std::string name, Joint joint, double stiffness, double damping, double rest, int drive);
 
-  int drive() const override { return drive_; }
+  std::span<const int> drives() const override { return drive_or_none(drive_); }
   bool same_as(const ForceElement& other) const override;
   void add_forces(const Instant& now, double h, Memory m, ForceSum& out) const override;
   /// Exact on configurations that satisfy the joint.

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/specification.h"
+#include "sim/sea/sea_spec.h"
 
 namespace stillhook {
 

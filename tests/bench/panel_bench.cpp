@@ -15,7 +15,7 @@
 
 #include "problems/case.h"
 #include "results/plot.h"
-#include "sim/hull/coefficient_source.h"
+#include "sim/hull/coefficients/coefficient_source.h"
 #include "sim/simulate.h"
 #include "tests/truth/box_hull.h"
 #include "tests/truth/hemisphere.h"

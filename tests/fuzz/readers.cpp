@@ -9,8 +9,8 @@
 #include "problems/search/store.h"
 #include "results/archive.h"
 #include "results/files.h"
-#include "sim/hull/database.h"
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/coefficients/database.h"
+#include "sim/hull/mesh/mesh_file.h"
 #include "sim/specification.h"
 #include "tuning/measured_table.h"
 

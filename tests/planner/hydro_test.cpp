@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "planner/verbs/hydro/hydro_convergence.h"
-#include "sim/hull/database.h"
+#include "sim/hull/coefficients/database.h"
 #include "tests/planner/documented_keys.h"
 #include "tests/planner/program.h"
 

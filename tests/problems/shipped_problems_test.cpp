@@ -6,7 +6,7 @@
 
 #include "problems/evaluator.h"
 #include "problems/scenarios.h"
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/mesh/mesh_file.h"
 #include "sim/operation.h"
 #include "sim/simulate.h"
 

@@ -194,7 +194,7 @@ class Adjoint {
     constexpr double kWide = 1e-5;
     const DriveState by_speed = drives_at(after.t, 1.0).front();  // the drive is linear in it
     for (int e = 0; e < static_cast<int>(system_.elements.size()); ++e) {
-      if (system_.elements[e]->drive() < 0) continue;
+      if (system_.elements[e]->drives().empty()) continue;
       const auto slope = [&](double DriveState::*part) {
         ForceSum force[2] = {ForceSum(n_ / 6), ForceSum(n_ / 6)};
         for (int side = 0; side < 2; ++side) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/hull/bemio_file.h"
-#include "sim/hull/hdf5_file.h"
+#include "sim/hull/coefficients/bemio_file.h"
+#include "sim/hull/coefficients/hdf5_file.h"
 
 namespace stillhook {
 

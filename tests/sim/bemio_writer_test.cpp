@@ -1,5 +1,5 @@
 // BEMIO files as they are written here, read back and as WEC-Sim reads them.
-#include "sim/hull/bemio_file.h"
+#include "sim/hull/coefficients/bemio_file.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "sim/hull/hdf5_file.h"
+#include "sim/hull/coefficients/hdf5_file.h"
 #include "sim/specification.h"
 #include "tests/sim/bemio_sample.h"
 #include "tests/sim/coefficient_sets.h"

@@ -1,4 +1,4 @@
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 
 #include <unistd.h>
 

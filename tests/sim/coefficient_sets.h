@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 
 namespace stillhook {
 

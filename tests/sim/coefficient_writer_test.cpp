@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 #include "sim/specification.h"
 #include "tests/sim/coefficient_sets.h"
 #include "tests/sim/temporary_folder.h"

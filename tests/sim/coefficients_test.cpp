@@ -1,9 +1,9 @@
-#include "sim/hull/coefficients.h"
+#include "sim/hull/coefficients/coefficients.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 #include "sim/specification.h"
 
 namespace stillhook {

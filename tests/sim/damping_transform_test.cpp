@@ -1,4 +1,4 @@
-#include "sim/hull/damping_transform.h"
+#include "sim/hull/radiation/damping_transform.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
 // A coefficient file in a case: what comes of it does not depend on where the case puts the origin of the body.
 #include <catch2/catch.hpp>
 
-#include "sim/hull/coefficient_source.h"
-#include "sim/hull/database.h"
+#include "sim/hull/coefficients/coefficient_source.h"
+#include "sim/hull/coefficients/database.h"
 #include "tests/sim/coefficient_sets.h"
 #include "tests/sim/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "sim/hull/database.h"
+#include "sim/hull/coefficients/database.h"
 
 #include <catch2/catch.hpp>
 

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <thread>
 
-#include "sim/hull/database_source.h"
+#include "sim/hull/coefficients/database_source.h"
+#include "sim/hull/coefficients/wamit_file.h"
 #include "sim/hull/felt_depth.h"
-#include "sim/hull/infinite_frequency.h"
-#include "sim/hull/wamit_file.h"
+#include "sim/hull/radiation/infinite_frequency.h"
 #include "tests/sim/coefficient_sets.h"
 #include "tests/sim/temporary_folder.h"
 

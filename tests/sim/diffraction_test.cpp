@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 #include "sim/hull/linear_froude_krylov.h"
 #include "sim/specification.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 
 namespace stillhook {
 namespace {

@@ -1,5 +1,5 @@
-#include "sim/hull/hull_mesh.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/mesh/hull_mesh.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -13,9 +13,9 @@
 #include <numbers>
 
 #include "sim/hull/linear_froude_krylov.h"
-#include "sim/hull/panel_method.h"
 #include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/hull_modes.h"
+#include "sim/hull/rankine/panel_method.h"
 
 namespace stillhook {
 namespace {

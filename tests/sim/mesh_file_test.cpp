@@ -1,4 +1,4 @@
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/mesh/mesh_file.h"
 
 #include <unistd.h>
 

@@ -1,10 +1,10 @@
 // Meshes as panel codes and drawing programs write them: corners that do not meet, one side alone, comments.
-#include "sim/hull/mesh_seams.h"
+#include "sim/hull/mesh/mesh_seams.h"
 
 #include <catch2/catch.hpp>
 
-#include "sim/hull/mesh_edges.h"
-#include "sim/hull/mesh_file.h"
+#include "sim/hull/mesh/mesh_edges.h"
+#include "sim/hull/mesh/mesh_file.h"
 #include "tests/sim/temporary_folder.h"
 
 namespace stillhook {

@@ -1,4 +1,4 @@
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

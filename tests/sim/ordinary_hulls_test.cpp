@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/hull/causal_kernels.h"
+#include "sim/hull/coefficients/sea_band.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/hull/radiation/causal_kernels.h"
 #include "sim/hull/rankine/bands.h"
 #include "sim/hull/rankine/frequencies.h"
 #include "sim/hull/rankine/mesh_symmetry.h"
-#include "sim/hull/sea_band.h"
 #include "sim/specification.h"
 #include "tests/truth/sphere_mesh.h"
 

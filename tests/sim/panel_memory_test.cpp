@@ -1,7 +1,7 @@
 // What a panel computation takes is told and bounded before it begins.
 #include <catch2/catch.hpp>
 
-#include "sim/hull/panel_method.h"
+#include "sim/hull/rankine/panel_method.h"
 #include "sim/specification.h"
 
 namespace stillhook {

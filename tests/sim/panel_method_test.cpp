@@ -1,4 +1,4 @@
-#include "sim/hull/panel_method.h"
+#include "sim/hull/rankine/panel_method.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sim/hull/linear_froude_krylov.h"
-#include "sim/hull/radiation_march.h"
+#include "sim/hull/radiation/radiation_march.h"
 #include "sim/hull/rankine/hull_modes.h"
 #include "tests/truth/box_hull.h"
 #include "tests/truth/hemisphere.h"

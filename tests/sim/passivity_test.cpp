@@ -1,10 +1,10 @@
-#include "sim/hull/passivity.h"
+#include "sim/hull/radiation/passivity.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include "sim/hull/least_distance.h"
+#include "sim/hull/mesh/least_distance.h"
 
 namespace stillhook {
 namespace {

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <random>
 
-#include "sim/hull/coefficient_file.h"
-#include "sim/hull/radiation.h"
-#include "sim/hull/radiation_memory.h"
+#include "sim/hull/coefficients/coefficient_file.h"
+#include "sim/hull/radiation/radiation.h"
+#include "sim/hull/radiation/radiation_memory.h"
 
 namespace stillhook {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/hull/coefficients.h"
+#include "sim/hull/coefficients/coefficients.h"
 
 namespace stillhook {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/hull/coefficient_file.h"
-#include "sim/hull/coefficients.h"
+#include "sim/hull/coefficients/coefficient_file.h"
+#include "sim/hull/coefficients/coefficients.h"
 #include "sim/specification.h"
 
 namespace stillhook {

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
+#include "sim/hull/coefficients/sea_band.h"
 #include "sim/hull/diffraction.h"
-#include "sim/hull/panel_method.h"
-#include "sim/hull/sea_band.h"
+#include "sim/hull/rankine/panel_method.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {

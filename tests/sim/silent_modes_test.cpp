@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/hull/state_space_fit.h"
+#include "sim/hull/radiation/state_space_fit.h"
 #include "tests/sim/coefficient_sets.h"
 
 namespace stillhook {

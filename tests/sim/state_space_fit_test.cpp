@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "sim/hull/coefficient_file.h"
-#include "sim/hull/state_space_cache.h"
-#include "sim/hull/state_space_fit.h"
+#include "sim/hull/coefficients/coefficient_file.h"
+#include "sim/hull/radiation/state_space_cache.h"
+#include "sim/hull/radiation/state_space_fit.h"
 #include "sim/specification.h"
 #include "tests/sim/resonant_radiation.h"
 #include "tests/sim/temporary_folder.h"

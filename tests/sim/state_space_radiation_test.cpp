@@ -1,11 +1,11 @@
-#include "sim/hull/state_space_radiation.h"
+#include "sim/hull/radiation/state_space_radiation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
-#include "sim/hull/coefficient_file.h"
-#include "sim/hull/radiation_memory.h"
+#include "sim/hull/coefficients/coefficient_file.h"
+#include "sim/hull/radiation/radiation_memory.h"
 #include "tests/sim/resonant_radiation.h"
 
 namespace stillhook {

@@ -1,4 +1,4 @@
-#include "sim/hull/wamit_file.h"
+#include "sim/hull/coefficients/wamit_file.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "sim/hull/wamit_text.h"
+#include "sim/hull/coefficients/wamit_text.h"
 #include "sim/specification.h"
 #include "tests/sim/coefficient_sets.h"
 #include "tests/sim/wamit_sample.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/hull/wamit_file.h"
+#include "sim/hull/coefficients/wamit_file.h"
 #include "tests/sim/temporary_folder.h"
 
 namespace stillhook {

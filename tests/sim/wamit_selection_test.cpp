@@ -1,5 +1,5 @@
 // What is read of WAMIT files: headings, frequencies, bodies, the meaning of the first column.
-#include "sim/hull/wamit_file.h"
+#include "sim/hull/coefficients/wamit_file.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 
 namespace stillhook::truth {
 

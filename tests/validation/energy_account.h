@@ -144,16 +144,16 @@ class AccountedRun {
              measured(name + ".rate");
     if (dynamic_cast<const Tagline*>(&element))
       return -measured(name + ".tension") * measured(name + ".line_speed") + heat;
-    if (const auto* mooring = dynamic_cast<const Mooring*>(&element); mooring && mooring->drive() >= 0) {
-      const DriveState& d = state_.drive[static_cast<std::size_t>(mooring->drive())];
+    if (const auto* mooring = dynamic_cast<const Mooring*>(&element); mooring && !mooring->drives().empty()) {
+      const DriveState& d = state_.drive[static_cast<std::size_t>(mooring->drives().front())];
       const Vector3 anchor = mooring->anchor() + d.position * mooring->options().tow_direction;
       const Vector3 reach = anchor - motion_of(mooring->options().fairlead, state_.instant()).p;
       const Vector3 along = Vector3(reach.x(), reach.y(), 0.0).normalized();
       return measured(name + ".horizontal_tension") * along.dot(mooring->options().tow_direction) * d.rate;
     }
     if (const auto* ballast = dynamic_cast<const Ballast*>(&element)) {
-      const double moved = state_.drive[static_cast<std::size_t>(ballast->drive())].position;
-      const double rate = state_.drive[static_cast<std::size_t>(ballast->drive())].rate;
+      const double moved = state_.drive[static_cast<std::size_t>(ballast->drives().front())].position;
+      const double rate = state_.drive[static_cast<std::size_t>(ballast->drives().front())].rate;
       return moved > 0.0 ? stored_.at(name) / moved * rate : 0.0;
     }
     return 0.0;

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/hull/state_space_fit.h"
+#include "sim/hull/radiation/state_space_fit.h"
 #include "tests/validation/reference_lift.h"
 
 namespace stillhook {

@@ -7,9 +7,9 @@
 
 #include "problems/evaluator.h"
 #include "problems/search/solve.h"
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
 #include "sim/hull/hydrostatics.h"
-#include "sim/hull/panel_method.h"
+#include "sim/hull/rankine/panel_method.h"
 #include "sim/simulate.h"
 #include "tests/sim/temporary_folder.h"
 #include "tests/validation/reference_lift.h"

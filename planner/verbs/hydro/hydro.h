@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "problems/case.h"
-#include "sim/hull/state_space_fit.h"
+#include "sim/hull/radiation/state_space_fit.h"
 #include "sim/model.h"
 
 namespace stillhook {

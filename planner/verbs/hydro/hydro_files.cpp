@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "sim/hull/bemio_file.h"
-#include "sim/hull/coefficient_file.h"
+#include "sim/hull/coefficients/bemio_file.h"
+#include "sim/hull/coefficients/coefficient_file.h"
+#include "sim/hull/coefficients/wamit_file.h"
 #include "sim/hull/heading_frame.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/immersion.h"
-#include "sim/hull/wamit_file.h"
 
 namespace stillhook {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/hull/panel_method.h"
+#include "sim/hull/rankine/panel_method.h"
 
 namespace stillhook::rankine {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 #include "sim/hull/rankine/flat_panel.h"
 
 namespace stillhook::rankine {

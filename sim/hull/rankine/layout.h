@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "sim/hull/panel_method.h"
 #include "sim/hull/rankine/boundary_problem.h"
+#include "sim/hull/rankine/panel_method.h"
 
 namespace stillhook::rankine {
 

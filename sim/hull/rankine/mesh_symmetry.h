@@ -1,7 +1,7 @@
 // The planes about which a hull given as a mesh is symmetric.
 #pragma once
 
-#include "sim/hull/mesh.h"
+#include "sim/hull/mesh/mesh.h"
 #include "sim/hull/rankine/hull_panels.h"
 
 namespace stillhook::rankine {

@@ -21,9 +21,9 @@
 #include <span>
 #include <vector>
 
-#include "sim/hull/panel_method.h"
 #include "sim/hull/rankine/compact_matrix.h"
 #include "sim/hull/rankine/hull_modes.h"
+#include "sim/hull/rankine/panel_method.h"
 
 namespace stillhook::rankine {
 
