@@ -144,8 +144,18 @@ class LiftCheck {
   }
 
   void check_sea(const SeaStateSpec& state) {
-    if (state.directions > 1 && !(state.spreading > 0.0))
-      report("sea.states." + state.name, "directions", "more than 1 needs spreading > 0");
+    check_waves(state, "sea.states." + state.name);
+    for (const SeaStateSpec& part : state.parts)
+      check_waves(part, "sea.states." + state.name + ".parts." + part.name);
+  }
+
+  void check_waves(const SeaStateSpec& waves, const std::string& entry) {
+    if (waves.spreading > 0.0 && waves.spreading_2s > 0.0)
+      report(entry, "spreading_2s", "cannot stand beside spreading: waves spread in one of the two ways");
+    if (waves.directions > 1 && !(waves.spreading > 0.0) && !(waves.spreading_2s > 0.0))
+      report(entry, "directions", "more than 1 needs spreading > 0");
+    if (waves.type == SeaStateSpec::Type::sum && written(entry, "heading_deg"))
+      report(entry, "heading_deg", "has no meaning for a sum: each part has its own");
   }
 
   /// The unit that a position, travel or speed of this drive is given in.

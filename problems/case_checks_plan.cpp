@@ -105,10 +105,10 @@ class PlanCheck {
     for (const SeaStateSpec& state : case_.specification.sea.states) {
       if (state.name != scenario.sea) continue;
       const bool regular = state.type == SeaStateSpec::Type::regular;
-      const bool irregular =
-          state.type == SeaStateSpec::Type::jonswap || state.type == SeaStateSpec::Type::pierson_moskowitz;
       if (scenario.phase && !regular) report(entry, "phase_deg", "has a meaning only with a regular sea");
-      if (scenario.seed && !irregular) report(entry, "seed", "has a meaning only with an irregular sea");
+      if (scenario.seed && !state.seeded()) report(entry, "seed", "has a meaning only with an irregular sea");
+      if (scenario.heading && !state.has_heading() && state.type != SeaStateSpec::Type::calm)
+        report(entry, "heading_deg", "has a meaning only with a sea of one direction, and " + state.name + " has several");
     }
   }
 

@@ -1,4 +1,4 @@
-// Field tables of the sea, the bodies with their hulls, and the joints.
+// Field tables of the bodies with their hulls, and of the joints.
 #include "problems/case_format.h"
 
 namespace stillhook {
@@ -12,53 +12,6 @@ Matrix3 inertia_from(const std::vector<double>& v) {
     inertia(1, 2) = inertia(2, 1) = v[5];
   }
   return inertia;
-}
-
-const Table& sea_state_table() {
-  static const Table table = [] {
-    using S = SeaStateSpec;
-    TableOf<S> t("sea.states", "A sea that the lift can meet; `sea.active` picks one, a scenario of the plan another.");
-    const std::vector<std::string> irregular = {"jonswap", "pierson_moskowitz"};
-    t.name("name", &S::name, "Name.");
-    t.choice<decltype(&S::type), S::Type>("type", &S::type,
-                                          {{"calm", S::Type::calm},
-                                           {"regular", S::Type::regular},
-                                           {"jonswap", S::Type::jonswap},
-                                           {"pierson_moskowitz", S::Type::pierson_moskowitz}},
-                                          "Kind of sea.")
-        .require();
-    t.number("amplitude_m", &S::amplitude, unit::m, not_negative(), "Amplitude, half the wave height.")
-        .only_when("type", {"regular"})
-        .require();
-    t.number("frequency_rad_per_s", &S::frequency, unit::rad_per_s, positive(), "Circular frequency.")
-        .only_when("type", {"regular"})
-        .require();
-    t.number("phase_deg", &S::phase, unit::deg, any_value(), "Lag of the crest at the world's origin at time 0.")
-        .only_when("type", {"regular"});
-    t.number("significant_height_m", &S::significant_height, unit::m, not_negative(), "Significant wave height Hs.")
-        .only_when("type", irregular)
-        .require();
-    t.number("peak_period_s", &S::peak_period, unit::s, positive(), "Peak period Tp.")
-        .only_when("type", irregular)
-        .require();
-    t.number("gamma", &S::gamma, unit::one, Range{1.0, 10.0, false}, "Peakedness of the JONSWAP spectrum.")
-        .only_when("type", {"jonswap"})
-        .absent("by the DNV rule from Hs and Tp");
-    t.number("heading_deg", &S::heading, unit::deg, Range{-360.0, 360.0, false},
-             "Direction the waves travel towards, from +x, counter-clockwise.");
-    t.number("spreading", &S::spreading, unit::one, Range{0.0, 100.0, false},
-             "Exponent n of the cos^n spreading; 0 is long-crested.")
-        .only_when("type", irregular);
-    t.integer("components", &S::components, Range{1, 2000, false}, "Number of frequencies.")
-        .only_when("type", irregular);
-    t.integer("directions", &S::directions, Range{1, 181, false},
-              "Number of directions; more than 1 only with spreading.")
-        .only_when("type", irregular);
-    t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Index that the phases come from.")
-        .only_when("type", irregular);
-    return t.build();
-  }();
-  return table;
 }
 
 const Table& hull_table() {
@@ -116,22 +69,6 @@ const Table& hull_table() {
 }
 
 }  // namespace
-
-const Table& sea_table() {
-  static const Table table = [] {
-    using S = SeaSpec;
-    TableOf<S> t("sea", "The water, and the seas the lift can meet.");
-    t.text("active", &S::active, "The sea state of a single run, or `calm`.").names(Reference::sea_state).absent("calm water");
-    t.number("ramp_s", &S::ramp, unit::s, not_negative(), "The waves grow smoothly from nothing over this time.");
-    t.number("density_kg_per_m3", &S::density, unit::kg_per_m3, positive(), "Density of the water.");
-    t.number("gravity_m_per_s2", &S::gravity, unit::m_per_s2, positive(), "Acceleration of gravity.");
-    t.number("depth_m", &S::depth, unit::m, positive(), "Water depth, for moorings; waves are deep-water waves, and a warning says where they would feel the bottom.")
-        .absent("deep");
-    t.tables("states", &S::states, "name", &sea_state_table, "Sea states.");
-    return t.build();
-  }();
-  return table;
-}
 
 const Table& body_table() {
   static const Table table = [] {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/shallow_water.h"
 #include "sim/crane_parts.h"
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/mesh/mesh.h"
@@ -17,21 +18,6 @@ namespace {
 
 /// s: lines of a working mooring give periods of one to two minutes; what is slower than this no line holds.
 constexpr double kHeld = 200.0;
-
-void find_shallow_water(const Specification& s, std::vector<std::string>& gaps) {
-  for (const SeaStateSpec& sea : s.sea.states) {
-    if (sea.name != s.sea.active || sea.type == SeaStateSpec::Type::calm || !(s.sea.depth > 0.0)) continue;
-    const bool regular = sea.type == SeaStateSpec::Type::regular;
-    const double omega = regular ? sea.frequency : kTwoPi / sea.peak_period;
-    const double length = kTwoPi * s.sea.gravity / (omega * omega);  // deep water: w^2 = g k
-    if (!(s.sea.depth < 0.5 * length)) continue;
-    gaps.push_back(
-        fmt::format("the waves feel the bottom: those of {:.1f} s are {:.0f} m long, the water is {:.1f} m "
-                    "deep, less than half of that; they are calculated as waves of deep water, and hulls "
-                    "as in deep water",
-                    kTwoPi / omega, length, s.sea.depth));
-  }
-}
 
 /// Lowest and highest point of a body's hull in a pose, z in W; of a body without hull its contact points, or else its
 /// origin and centre of gravity.
@@ -106,6 +92,24 @@ void find_long_splash(const Specification& s, const Operation& operation, std::v
   }
 }
 
+/// A body with a hull that a pose of the operation puts under the sea bed, where nothing holds it up.
+void find_under_bed(const Specification& s, const Operation& operation, std::vector<std::string>& gaps) {
+  constexpr double kSettled = 0.5;  // m
+  if (!(s.sea.depth > 0.0)) return;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    for (const StaticPose& pose : operation.static_poses) {
+      if (i >= pose.bodies.size()) return;
+      const double under = -s.sea.depth - heights(s, s.bodies[i], pose.bodies[i]).first;
+      if (!(under > kSettled)) continue;
+      gaps.push_back(fmt::format("{} lies {:.1f} m below the sea bed, {:.1f} m under the still water, {}: nothing but "
+                                 "[[contacts]] holds it up there",
+                                 s.bodies[i].name, under, s.sea.depth,
+                                 pose.name == "start" ? "at the start" : "in phase " + pose.name));
+      break;
+    }
+  }
+}
+
 /// A wire whose damping is a share of critical at its first length, and which is paid out to many times that: the
 /// dashpot stays what it was, while the critical damping falls with the root of the length.
 void find_long_payout(const Model& model, const Operation& operation, std::vector<std::string>& gaps) {
@@ -163,9 +167,9 @@ void find_moved_by_sea(const Specification& s, std::vector<std::string>& gaps) {
 }  // namespace
 
 std::vector<std::string> model_gaps(const Model& model, const Operation& operation) {
-  std::vector<std::string> gaps;
-  find_shallow_water(model.specification(), gaps);
+  std::vector<std::string> gaps = shallow_water_gaps(model.specification().sea);
   find_moved_by_sea(model.specification(), gaps);
+  find_under_bed(model.specification(), operation, gaps);
   find_splash(model.specification(), operation, gaps);
   find_long_splash(model.specification(), operation, gaps);
   find_long_payout(model, operation, gaps);

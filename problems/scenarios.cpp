@@ -28,7 +28,7 @@ void expand(const Case& c, const ScenarioSpec& scenario, int count, int seed_off
     if (count > 1) one.name += "#" + std::to_string(k + 1);
     if (regular && (count > 1 || phase_shift != 0.0))
       one.phase = scenario.phase.value_or(sea->phase) + 2.0 * std::numbers::pi * (k + phase_shift) / count;
-    if (!regular && sea && (count > 1 || seed_offset != 0)) one.seed = scenario.seed.value_or(sea->seed) + seed_offset + k;
+    if (sea && sea->seeded() && (count > 1 || seed_offset != 0)) one.seed = scenario.seed.value_or(sea->seed) + seed_offset + k;
     all.push_back(one);
   }
 }
@@ -50,9 +50,10 @@ std::vector<ScenarioSpec> scenarios_of(const Case& c) {
     const bool regular = sea && sea->type == SeaStateSpec::Type::regular;
     if (s.seeds > 1 && s.phases > 1)
       throw CaseError("plan.scenarios." + s.name + ": a sea has either seeds or phases, not both");
-    if (regular ? s.seeds > 1 : s.phases > 1)
-      throw CaseError("plan.scenarios." + s.name + (regular ? ".seeds: only an irregular sea has seeds, "
-                                                            : ".phases: only a regular wave has phases, ") +
+    const bool too_many_seeds = s.seeds > 1 && sea && !sea->seeded();
+    if (too_many_seeds || (s.phases > 1 && !regular))
+      throw CaseError("plan.scenarios." + s.name + (too_many_seeds ? ".seeds: only an irregular sea has seeds, "
+                                                                   : ".phases: only a regular wave has phases, ") +
                       s.sea + " is not one");
     expand(c, s, std::max(s.seeds, s.phases), 0, 0.0, all);
   }
@@ -65,14 +66,13 @@ std::vector<ScenarioSpec> fresh_scenarios(const Case& c, int count) {
   constexpr double kShift = 0.381966;
   for (const ScenarioSpec& s : given(c)) {
     const SeaStateSpec* sea = sea_of(c, s);
-    const bool calm = !sea || sea->type == SeaStateSpec::Type::calm;
-    expand(c, s, calm ? 1 : count, kFreshSeeds, calm ? 0.0 : kShift, all);
+    const bool one_of_its_kind = !sea || (!sea->seeded() && sea->type != SeaStateSpec::Type::regular);
+    expand(c, s, one_of_its_kind ? 1 : count, kFreshSeeds, one_of_its_kind ? 0.0 : kShift, all);
   }
   return all;
 }
 
 Specification in_scenario(Specification specification, const ScenarioSpec& scenario) {
-  using Type = SeaStateSpec::Type;
   std::vector<SeaStateSpec>& states = specification.sea.states;
   const auto state =
       std::find_if(states.begin(), states.end(), [&](const SeaStateSpec& s) { return s.name == scenario.sea; });
@@ -82,11 +82,13 @@ Specification in_scenario(Specification specification, const ScenarioSpec& scena
     return specification;
   }
   if (state == states.end()) throw CaseError(where + ".sea: there is no sea state \"" + scenario.sea + "\"");
-  const bool irregular = state->type == Type::jonswap || state->type == Type::pierson_moskowitz;
-  if (scenario.phase && state->type != Type::regular)
+  if (scenario.phase && state->type != SeaStateSpec::Type::regular)
     throw CaseError(where + ".phase_deg: only a regular wave has a phase, " + scenario.sea + " is not one");
-  if (scenario.seed && !irregular)
+  if (scenario.seed && !state->seeded())
     throw CaseError(where + ".seed: only an irregular sea has a seed, " + scenario.sea + " is not one");
+  if (scenario.heading && !state->has_heading() && state->type != SeaStateSpec::Type::calm)
+    throw CaseError(where + ".heading_deg: only a sea of one direction has a heading, " + scenario.sea +
+                    " has several");
   if (scenario.heading) state->heading = *scenario.heading;
   if (scenario.phase) state->phase = *scenario.phase;
   if (scenario.seed) state->seed = *scenario.seed;

@@ -191,13 +191,10 @@ int channel_series(const RunView& view, const std::string& name, Payload& payloa
 
 Json sea_entry(const SeaSpec& sea) {
   Json entry = {{"ramp", sea.ramp}, {"depth", sea.depth}, {"components", Json::array()}};
-  for (const SeaStateSpec& state : sea.states) {
-    if (state.name != sea.active) continue;
-    const WaveField field = build_wave_field(state, sea.gravity, sea.ramp);
-    for (const WaveComponent& c : field.components())
-      entry["components"].push_back(
-          {c.amplitude, c.frequency, c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading, c.phase});
-  }
+  const WaveField field = build_wave_field(sea);
+  for (const WaveComponent& c : field.components())
+    entry["components"].push_back(
+        {c.amplitude, c.frequency, c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading, c.phase});
   return entry;
 }
 

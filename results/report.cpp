@@ -8,6 +8,7 @@
 #include "results/html.h"
 #include "results/replay.h"
 #include "results/report_parts.h"
+#include "results/sea_words.h"
 #include "results/summary.h"
 #include "results/viewer_bundle.h"
 

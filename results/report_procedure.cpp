@@ -9,6 +9,7 @@
 #include "results/html.h"
 #include "results/pose_drawing.h"
 #include "results/report_parts.h"
+#include "results/sea_words.h"
 #include "sim/crane_parts.h"
 #include "sim/drive_unit.h"
 #include "sim/lifting/contact.h"
@@ -24,12 +25,6 @@ double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 double value_of(const StaticPose& pose, const std::string& key) {
   const auto found = pose.values.find(key);
   return found == pose.values.end() ? kNaN : found->second;
-}
-
-/// The compass direction that waves towards `heading` come from, degrees clockwise from true north, 0 to 360.
-double compass_from(double heading, double north) {
-  const double turn = std::fmod(180.0 + degrees(north - heading), 360.0);
-  return std::round(turn < 0.0 ? turn + 360.0 : turn) == 360.0 ? 0.0 : turn < 0.0 ? turn + 360.0 : turn;
 }
 
 std::string travel_text(const Specification& s, const DriveSpec& drive, double travel) {
@@ -209,31 +204,6 @@ std::string gear_sentences(const Specification& s) {
 }
 
 }  // namespace
-
-std::string sea_sentence(const SeaSpec& sea, std::optional<double> north) {
-  const auto state =
-      std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
-  if (state == sea.states.end()) return "Calm water";
-  std::string towards =
-      fmt::format("travelling towards {}° from +x, counter-clockwise", fixed_number(degrees(state->heading), 0));
-  if (north) towards += fmt::format(", that is from {}° true", fixed_number(compass_from(state->heading, *north), 0));
-  switch (state->type) {
-    case SeaStateSpec::Type::calm:
-      return fmt::format("Sea state {}: calm water", state->name);
-    case SeaStateSpec::Type::regular:
-      return fmt::format("Sea state {}: regular waves, amplitude {} m, {} rad/s (period {} s), {}", state->name,
-                         fixed_number(state->amplitude, 2), fixed_number(state->frequency, 3),
-                         fixed_number(2.0 * std::numbers::pi / state->frequency, 1), towards);
-    case SeaStateSpec::Type::jonswap:
-    case SeaStateSpec::Type::pierson_moskowitz:
-      break;
-  }
-  return fmt::format("Sea state {}: {}, Hs {} m, Tp {} s ({} rad/s), {}, seed {}{}", state->name,
-                     state->type == SeaStateSpec::Type::jonswap ? "JONSWAP" : "Pierson–Moskowitz",
-                     fixed_number(state->significant_height, 2), fixed_number(state->peak_period, 1),
-                     fixed_number(2.0 * std::numbers::pi / state->peak_period, 3), towards, state->seed,
-                     state->spreading > 0.0 ? ", short-crested" : ", long-crested");
-}
 
 std::string wind_sentence(const WindSpec& wind, std::optional<double> north) {
   if (!wind.blows()) return {};

@@ -59,8 +59,7 @@ std::string ground_of_verdict(const ReportData& data) {
   const SeaSpec& sea = data.specification.sea;
   const auto state =
       std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
-  const bool irregular = state != sea.states.end() && (state->type == SeaStateSpec::Type::jonswap ||
-                                                       state->type == SeaStateSpec::Type::pierson_moskowitz);
+  const bool irregular = state != sea.states.end() && state->seeded();
   const SearchSection* search = data.search;
   std::string out;
   if (search && search->scenarios.size() > 1)

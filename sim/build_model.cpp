@@ -29,11 +29,7 @@ ModelBuilder::ModelBuilder(const Specification& specification, const HydroProgre
 
 Model ModelBuilder::build() {
   place_bodies();
-  const SeaSpec& sea = spec().sea;
-  const auto active =
-      std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
-  model_.waves_ = std::make_shared<const WaveField>(
-      active == sea.states.end() ? WaveField() : build_wave_field(*active, sea.gravity, sea.ramp));
+  model_.waves_ = std::make_shared<const WaveField>(build_wave_field(spec().sea));
   join_bodies();
   choose_lengths();
   add_elements();
@@ -47,6 +43,7 @@ Model ModelBuilder::build() {
     refuse_slack_supports();
     for (std::string& note : start_pose_notes(model_, given, state())) model_.warnings_.push_back(std::move(note));
   }
+  refuse_below_bed(spec(), state());
   model_.laid_out_ = state();
   add_hydrodynamics();
   start();
@@ -114,8 +111,8 @@ void ModelBuilder::hold_to_the_sea() {
                                "must be > 0 s with '" + b.name +
                                    "', which moves by RAOs: without it the vessel would be torn into the motion at once; "
                                    "a wave period or two will do");
-    const RaoTable table = read_rao_table(b, spec().sea.gravity);
-    for (const std::string& odd : odd_in_long_waves(table, spec().sea.gravity))
+    const RaoTable table = read_rao_table(b, spec().sea.gravity, spec().sea.wave_depth());
+    for (const std::string& odd : odd_in_long_waves(table, spec().sea.gravity, spec().sea.wave_depth()))
       model_.warnings_.push_back("bodies." + b.name + ".hydrodynamics.rao: " + odd +
                                  "; check the conventions that the case states for the file");
     Joint joint;

@@ -11,6 +11,7 @@
 #include "sim/hull/heading_frame.h"
 #include "sim/hull/hydrodynamics.h"
 #include "sim/hull/hydrostatics.h"
+#include "sim/sea/dispersion.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
@@ -112,8 +113,7 @@ struct LinearResponse::SeaMoved {
     return frequency >= table.frequencies.front() * (1.0 - 1e-9) && frequency <= table.frequencies.back() * (1.0 + 1e-9) &&
            table.gap_at(heading - frame.heading) <= kWidest;
   }
-  ResponseAmplitude::Vector6c motion(double frequency, double heading, double gravity) const {
-    const double k = frequency * frequency / gravity;
+  ResponseAmplitude::Vector6c motion(double frequency, double heading, double k) const {
     const Raos X = moved_by(table.between(frequency, heading - frame.heading), to_cog);
     const Complex wave = std::polar(1.0, k * (q.x() * std::cos(heading) + q.y() * std::sin(heading)));
     ResponseAmplitude::Vector6c xi;
@@ -131,6 +131,7 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
   const MultibodySystem& system = model.system();
   const Specification& spec = model.specification();
   gravity_ = spec.sea.gravity;
+  depth_ = spec.sea.wave_depth();
   state_.t = kCalm;
   SystemWorkspace work = system.make_workspace();
   VectorX Q;
@@ -172,9 +173,9 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
       const double yaw = roll_pitch_yaw(X_WB.R).yaw;
       const double density = group.set ? group.set->density : spec.sea.density;
       group.hulls.push_back({HeadingFrame(k, body.cog - Vector3(0.0, 0.0, height), yaw),
-                             LinearFroudeKrylov(mesh, waterline, density, gravity_), X_WB.p.head<2>(),
+                             LinearFroudeKrylov(mesh, waterline, density, gravity_, depth_), X_WB.p.head<2>(),
                              body.hydrodynamics.diffraction_factor});
-      incident.push_back(group.hulls.back().froude_krylov);
+      incident.emplace_back(mesh, waterline, density, gravity_);  // of deep water, as the set
       headings.push_back(yaw);
     }
     group.added_mass_factor = mode_factors(bodies, &HydrodynamicsSpec::added_mass_factor);
@@ -182,7 +183,9 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     if (group.set && !group.set->excitation.empty()) {
       group.diffraction.emplace(group.set->excitation, incident, headings, group.set->length);
       lowest_ = std::max(lowest_, group.set->excitation.frequencies.front());
-      highest_ = std::min(highest_, group.diffraction->highest_frequency());
+      const double shortest = std::pow(group.diffraction->highest_frequency(), 2) / gravity_;
+      highest_ = std::min(highest_, std::isinf(depth_) ? group.diffraction->highest_frequency()
+                                                       : wave_frequency(shortest, gravity_, depth_));
     }
     const HydrodynamicsSpec& h = spec.bodies[members.front()].hydrodynamics;
     if (h.kind == HydrodynamicsSpec::Kind::constant) group.constant_added_mass = h.added_mass;
@@ -200,7 +203,7 @@ void LinearResponse::add_sea_moved() {
     if (!body.moved_by_sea()) continue;
     const RaoFrame frame(body);
     const Matrix3 R_WB = rotation_from(body.attitude);
-    SeaMoved moved{k,    read_rao_table(body, gravity_), frame, body.position + R_WB * frame.q, {},
+    SeaMoved moved{k,    read_rao_table(body, gravity_, depth_), frame, body.position + R_WB * frame.q, {},
                    R_WB * frame.R_HB.transpose(), R_WB, frame.R_HB * (body.cog - frame.q)};
     for (int row = 0; row < system.constraints(); ++row)
       if (system.row_joint(row) == joint.name) moved.rows.push_back(row);
@@ -213,7 +216,7 @@ void LinearResponse::add_sea_moved() {
 Eigen::VectorXcd LinearResponse::carried(double frequency, double heading) const {
   Eigen::VectorXcd asked = Eigen::VectorXcd::Zero(C_q_.rows());
   for (const SeaMoved& moved : moved_) {
-    const ResponseAmplitude::Vector6c xi = moved.motion(frequency, heading, gravity_);
+    const ResponseAmplitude::Vector6c xi = moved.motion(frequency, heading, wave_number(frequency, gravity_, depth_));
     for (const int row : moved.rows)
       asked[row] = (C_q_.block<1, 6>(row, 6 * moved.body).cast<Complex>() * xi)(0);
   }
@@ -241,19 +244,22 @@ bool LinearResponse::resolves(double frequency, double heading) const {
   for (const SeaMoved& moved : moved_)
     if (!moved.covers(frequency, heading)) return false;
   return std::all_of(groups_.begin(), groups_.end(), [&](const Group& group) {
-    return !group.diffraction || group.diffraction->resolves(frequency, heading - group.heading());
+    return !group.diffraction || group.diffraction->resolves(group.diffraction->frequency_of(frequency, depth_),
+                                                             heading - group.heading());
   });
 }
 
 Eigen::VectorXcd LinearResponse::excitation(double frequency, double heading) const {
-  const double k = frequency * frequency / gravity_;
+  const double k = wave_number(frequency, gravity_, depth_);
   const Eigen::Vector2d direction(std::cos(heading), std::sin(heading));
   Eigen::VectorXcd Q = Eigen::VectorXcd::Zero(mass_.rows());
   for (const Group& group : groups_) {
     Eigen::VectorXcd X_D = Eigen::VectorXcd::Zero(6 * group.hulls.size());
     if (group.diffraction)
       X_D =
-          group.diffraction->at(std::min(frequency, group.diffraction->highest_frequency()), heading - group.heading());
+          group.diffraction->at(std::min(group.diffraction->frequency_of(frequency, depth_),
+                                         group.diffraction->highest_frequency()),
+                                heading - group.heading());
     for (std::size_t i = 0; i < group.hulls.size(); ++i) {
       const Group::Hull& hull = group.hulls[i];
       const ResponseAmplitude::Vector6c X =
@@ -296,7 +302,7 @@ ResponseAmplitude::Vector6c LinearResponse::motion(const ResponseAmplitude& resp
   ResponseAmplitude::Vector6c result;
   result << R_HW * move, R_HW * turn;
   const Vector3 p_W = b.p_WC + arm;
-  const double k = response.frequency * response.frequency / gravity_;
+  const double k = wave_number(response.frequency, gravity_, depth_);
   const double lead = k * (p_W.x() * std::cos(response.heading) + p_W.y() * std::sin(response.heading));
   return result * std::polar(1.0, -lead);
 }

@@ -12,6 +12,8 @@
 // A vessel that moves by displacement RAOs (rao_table.h) answers with those: xi = Z y + x_p with the motion x_p of all
 // bodies that its joints carry along, and Z^T [...] x_p on the right.
 //
+// Waves and X_FK are those of the case's depth; of X_D see diffraction.h, A and B are those of deep water.
+//
 // A hull without a coefficient set is excited by the linear Froude-Krylov force alone. Quadratic damping, wires that
 // go slack, friction and the lag of tagline winches are left out. A phase is a lag: a motion with phase p peaks p/w
 // after the crest has passed. (Newman 1977, ch. 6; Faltinsen 1990, ch. 3)
@@ -71,7 +73,7 @@ class LinearResponse {
   std::vector<Group> groups_;
   std::vector<SeaMoved> moved_;
   MatrixX mass_, damping_, stiffness_, Z_, C_q_;
-  double gravity_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
+  double gravity_ = 0.0, depth_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
 };
 
 }  // namespace stillhook

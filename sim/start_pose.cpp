@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
+#include "sim/error.h"
+#include "sim/hull/hydrostatics.h"
 #include "sim/lifting/contact.h"
 #include "sim/lifting/wire.h"
 #include "sim/multibody/assembly.h"
+#include "sim/number_text.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
@@ -167,6 +171,26 @@ std::vector<std::size_t> wires_that_hold(const Specification& spec, const Multib
     if (from_is_lower ? from_fell > to_fell : to_fell > from_fell) hold_from_above.push_back(i);
   }
   return hold_from_above.empty() ? hold : hold_from_above;
+}
+
+void refuse_below_bed(const Specification& spec, const SystemState& start) {
+  constexpr double kSettled = 0.5;  // m
+  if (!(spec.sea.depth > 0.0)) return;
+  for (std::size_t i = 0; i < spec.bodies.size(); ++i) {
+    const BodySpec& body = spec.bodies[i];
+    const BodyKinematics& k = start.body[i];
+    double low = k.p_WC.z();
+    if (body.hull.shape != HullSpec::Shape::none) {
+      low = std::numeric_limits<double>::infinity();
+      for (const Vector3& v : build_hull_mesh(body.hull).vertices)
+        low = std::min(low, (k.p_WC + k.R_WB * (v - body.cog)).z());
+    }
+    if (low >= -spec.sea.depth - kSettled) continue;
+    throw SpecificationError("bodies." + body.name, "position",
+                             "lies " + number_text(std::round(100.0 * (-spec.sea.depth - low)) / 100.0) +
+                                 " m below the sea bed, which sea.depth puts " + number_text(spec.sea.depth) +
+                                 " m under the still water");
+  }
 }
 
 std::vector<std::string> start_pose_notes(const Model& model, const SystemState& given, const SystemState& start) {

@@ -17,6 +17,10 @@ std::vector<std::size_t> wires_that_hold(const Specification& spec, const Multib
                                          const std::vector<std::size_t>& candidates, const SystemState& given,
                                          const SystemState& loose);
 
+/// Throws SpecificationError("bodies.<name>.position") for a hull, or the centre of gravity of a body without one, that
+/// lies more than 0.5 m under the sea bed (SeaSpec::depth, 0 = no bed); less is what settles into it.
+void refuse_below_bed(const Specification& spec, const SystemState& start);
+
 /// A sentence for each body whose start pose is further than 0.5 m or 5 deg from the given one: how far, and why.
 std::vector<std::string> start_pose_notes(const Model& model, const SystemState& given, const SystemState& start);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "sim/sea/dispersion.h"
 #include "sim/sea/wave_sums.h"
 
 namespace stillhook {
@@ -68,6 +69,10 @@ int DiffractionTable::closest(double heading) const {
   for (int h = 1; h < static_cast<int>(headings_.size()); ++h)
     if (distance(h) < distance(best)) best = h;
   return best;
+}
+
+double DiffractionTable::frequency_of(double frequency, double depth) const {
+  return std::isinf(depth) ? frequency : std::sqrt(gravity_ * wave_number(frequency, gravity_, depth));
 }
 
 bool DiffractionTable::resolves(double frequency, double heading) const {
@@ -179,16 +184,16 @@ Diffraction::Diffraction(std::shared_ptr<const WaveField> waves, const Diffracti
     const double a2 = wave.amplitude * wave.amplitude;
     energy += a2;
     const double heading = std::atan2(wave.sin_heading, wave.cos_heading) - headings[0];
-    const bool known = above == ShortWaves::limit ? table.resolves_heading(wave.frequency, heading)
-                                                  : table.resolves(wave.frequency, heading);
-    const bool short_wave = wave.frequency > table.highest_frequency() * (1.0 + 1e-9);
+    const double read = table.frequency_of(wave.frequency, waves_->depth());
+    const bool known = above == ShortWaves::limit ? table.resolves_heading(read, heading) : table.resolves(read, heading);
+    const bool short_wave = read > table.highest_frequency() * (1.0 + 1e-9);
     if (!known) {
       beyond += a2;
       too_short |= short_wave && above == ShortWaves::left_out;
       continue;
     }
     if (short_wave) in_limit += a2;
-    const Eigen::VectorXcd X = wave.amplitude * table.at(wave.frequency, heading);
+    const Eigen::VectorXcd X = wave.amplitude * table.at(read, heading);
     for (std::size_t hull = 0; hull < hulls_.size(); ++hull) hulls_[hull].add(wave, X.segment<6>(6 * hull));
   }
   left_out_ = energy > 0.0 ? beyond / energy : 0.0;

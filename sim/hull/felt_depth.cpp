@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/hull/coefficients/database_frame.h"
+#include "sim/sea/dispersion.h"
 
 namespace stillhook {
 namespace {
@@ -40,9 +40,7 @@ std::vector<Ratio> ratios(const HydrodynamicCoefficients& set) {
 /// k / Vg at a depth, of that in deep water.
 double ratio_at(double frequency, double gravity, double depth) {
   const double deep = frequency * frequency / gravity, k = wave_number(frequency, gravity, depth);
-  const double twice = std::min(2.0 * k * depth, 300.0);
-  const double group = 0.5 * frequency / k * (1.0 + twice / std::sinh(twice));
-  return k / group / (2.0 * deep * frequency / gravity);
+  return k / group_velocity(frequency, gravity, depth) / (2.0 * deep * frequency / gravity);
 }
 
 /// Falls with the depth from infinity, a little below 1, and rises to it again: the shallow branch.

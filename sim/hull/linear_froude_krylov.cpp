@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/hull/froude_krylov_kernel.h"
+#include "sim/sea/dispersion.h"
 
 namespace stillhook {
 namespace {
@@ -46,8 +47,8 @@ void clip(const std::array<Vector3, 3>& corner, Sink sink) {
 
 }  // namespace
 
-LinearFroudeKrylov::LinearFroudeKrylov(const Mesh& hull, double waterline, double density, double gravity)
-    : waterline_(waterline), density_(density), gravity_(gravity) {
+LinearFroudeKrylov::LinearFroudeKrylov(const Mesh& hull, double waterline, double density, double gravity, double depth)
+    : waterline_(waterline), density_(density), gravity_(gravity), depth_(depth) {
   const Vector3 shift(0.0, 0.0, -waterline);
   for (const std::array<int, 3>& t : hull.triangles) {
     const std::array<Vector3, 3> corner = {hull.vertices[t[0]] + shift, hull.vertices[t[1]] + shift,
@@ -107,12 +108,12 @@ template <class Factor>
 Eigen::Matrix<Complex, 6, Eigen::Dynamic> LinearFroudeKrylov::integral(double frequency,
                                                                        const std::vector<double>& headings,
                                                                        Factor factor) const {
-  const double k = frequency * frequency / gravity_;
+  const double k = wave_number(frequency, gravity_, depth_), bed = bed_reflection(k, depth_);
   // On pieces with k * edge <= 0.8 the rule of degree 5 leaves (k edge)^6 / 6! ~ 4e-4 of the piece, with signs that
   // alternate along the wave.
   const double longest = 0.8 / std::max(k, 1e-12);
   std::vector<double> x, y;
-  std::array<std::vector<double>, 6> weight;  // -rho g e^{kz} (n, x_B x n) dS of each point
+  std::array<std::vector<double>, 6> weight;  // -rho g C(z) (n, x_B x n) dS of each point
   for (const Triangle& t : wetted_) {
     const Vector3 outwards = (t.b - t.a).cross(t.c - t.a);
     const double share = factor(outwards.normalized());
@@ -123,7 +124,8 @@ Eigen::Matrix<Complex, 6, Eigen::Dynamic> LinearFroudeKrylov::integral(double fr
     const auto add_piece = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
       for (const QuadraturePoint& q : quadrature()) {
         const Vector3 at = q.a * a + q.b * b + q.c * c;
-        const Vector3 force = q.weight * std::exp(k * at.z()) * normal;
+        const double fall = std::exp(k * at.z()), profile = (fall + bed / fall) / (1.0 + bed);
+        const Vector3 force = q.weight * profile * normal;
         const Vector3 moment = Vector3(at.x(), at.y(), at.z() + waterline_).cross(force);  // z from Bo
         x.push_back(at.x());
         y.push_back(at.y());

@@ -1,18 +1,20 @@
 // The Froude-Krylov force of linear theory: the pressure of the undisturbed wave on the mean wetted surface.
 //
-//   X_i = -int_S rho g exp(k z) exp(i k (x cos b + y sin b)) n_i dS,    k = w^2 / g,  n out of the hull,
-//   n_4..6 = x_B x n, moments about Bo;   force = Re[ X a exp(i th) ]  as in coefficients.h
+//   X_i = -int_S rho g C(z) exp(i k (x cos b + y sin b)) n_i dS,   w^2 = g k tanh kh,  n out of the hull,
+//   C(z) = cosh k(z + h) / cosh kh,  in deep water exp(k z);   n_4..6 = x_B x n, moments about Bo;
+//   force = Re[ X a exp(i th) ]  as in coefficients.h
 //
-// S: the hull mesh below the calm water plane, x_B from Bo. Deep water. (Faltinsen 1990, ch. 3; Newman 1977, ch. 6)
+// S: the hull mesh below the calm water plane, x_B from Bo. (Faltinsen 1990, ch. 3; Newman 1977, ch. 6)
 //
 // Waves much shorter than the hull are thrown back by the sides they meet and leave the water behind the hull calm: the
 // pressure is twice that of the incident wave on the lit side and none on the side in the shadow (Kirchhoff's
 // approximation; Faltinsen 1990, ch. 5). What this adds to the Froude-Krylov force is the limit of the diffraction force
 //
-//   X_D,i -> -int_S s rho g exp(k z) exp(i k (x cos b + y sin b)) n_i dS,   s = -1 .. 1 from lee to weather side.
+//   X_D,i -> -int_S s rho g C(z) exp(i k (x cos b + y sin b)) n_i dS,   s = -1 .. 1 from lee to weather side.
 #pragma once
 
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "sim/hull/mesh/mesh.h"
@@ -30,9 +32,10 @@ struct WaterplaneIntegrals {
 
 class LinearFroudeKrylov {
  public:
-  /// The part of `hull` (B, m) below z_B = waterline (m). density kg/m3, gravity m/s2. Throws MeshError when nothing
-  /// is below.
-  LinearFroudeKrylov(const Mesh& hull, double waterline, double density, double gravity);
+  /// The part of `hull` (B, m) below z_B = waterline (m). density kg/m3, gravity m/s2; depth: of the water, m. Throws
+  /// MeshError when nothing is below.
+  LinearFroudeKrylov(const Mesh& hull, double waterline, double density, double gravity,
+                     double depth = std::numeric_limits<double>::infinity());
 
   /// X per unit amplitude, N/m and N m/m. frequency rad/s, heading rad relative to B's x axis.
   Eigen::Matrix<std::complex<double>, 6, 1> excitation(double frequency, double heading) const;
@@ -58,7 +61,7 @@ class LinearFroudeKrylov {
                                                                   Factor factor) const;
 
   std::vector<Triangle> wetted_;
-  double waterline_, density_, gravity_, volume_ = 0.0;
+  double waterline_, density_, gravity_, depth_, volume_ = 0.0;
 };
 
 }  // namespace stillhook

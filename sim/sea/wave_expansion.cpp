@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/sea/dispersion.h"
 #include "sim/sea/wave_sums.h"
 
 namespace stillhook {
@@ -40,7 +41,7 @@ enum Head {
 };
 static_assert(kTerms == kExpansionTerms);
 
-// Sums of wave_sums.h. With E = exp(k s) cos th: E_ss = -E_xx - E_yy holds in any depth. E_tt = -g E_s, which does not,
+// Sums of wave_sums.h. With E = C(s) cos th: E_ss = -E_xx - E_yy holds in any depth. E_tt = -g E_s, which does not,
 // is not used.
 enum ElevationSum { EC_1, EC_xx, EC_xy, EC_yy, EC_xt, EC_yt, EC_tt, ES_x, ES_y, ES_t, ES_xtt, ES_ytt, kOfElevation };
 enum HeadSum {
@@ -69,7 +70,8 @@ enum HeadSum {
 static_assert(ES_x == kElevationCosines && kOfElevation == kElevationSums && HS_x == kHeadCosines &&
               kOfHead == kHeadSums);
 
-std::array<double, kExpansionFactors> factors_of(const WaveComponent& c) {
+// `bed`: exp(-2 k h). The head's factors hold what normalises cosh k(z' + h) / cosh kh.
+std::array<double, kExpansionFactors> factors_of(const WaveComponent& c, double bed) {
   const double a = c.amplitude, k = c.wavenumber, w = c.frequency, x = k * c.cos_heading, y = k * c.sin_heading;
   // d/dx cos = -kx sin, d/dt cos = +w sin; d/dx sin = kx cos, d/dt sin = -w cos; d/ds = k.
   std::array<double, kExpansionFactors> f = {1.0,    -x * x,     -x * y,    -y * y,    x * w,     y * w,    -w * w,
@@ -77,7 +79,8 @@ std::array<double, kExpansionFactors> factors_of(const WaveComponent& c) {
                                              1.0,    k,          -x * x,    -x * y,    -y * y,    x * w,    y * w,
                                              -w * w, -w * w * k, x * k * w, y * k * w, -x,        -y,       w,
                                              -x * k, -y * k,     w * k,     x * w * w, y * w * w, k * k * w};
-  for (double& factor : f) factor *= a;
+  for (int i = 0; i < kExpansionFactors; ++i)
+    f[static_cast<std::size_t>(i)] *= i < kElevationSums ? a : a / (1.0 + bed);
   return f;
 }
 
@@ -130,9 +133,34 @@ Series head_of(const double* v) {
   return f;
 }
 
-// h(x, y, z, t) = E(x, y, z - zeta(x, y, t), t).
-Series stretched(const Series& E, const Series& zeta) {
-  const Eigen::Vector4d s = Eigen::Vector4d::UnitZ() - zeta.first;
+// Derivatives of the stretched height s(x, y, z, t), in the places of a Series.
+struct StretchedHeight {
+  Eigen::Vector4d first;
+  Eigen::Matrix4d second;
+  Eigen::Vector3d curvature_slope;
+};
+
+// s = z - zeta.
+StretchedHeight shifted(const Series& zeta) {
+  return {Eigen::Vector4d::UnitZ() - zeta.first, -zeta.second, -zeta.curvature_slope};
+}
+
+// s = h (z + h) / (h + zeta) - h.
+StretchedHeight squeezed(const Series& zeta, double z, double h) {
+  const double column = h + zeta.value, up = h / column, share = up * (z + h) / column;
+  StretchedHeight s;
+  s.first = -share * zeta.first;
+  s.first[2] = up;
+  s.second = -share * zeta.second + 2.0 * share / column * zeta.first * zeta.first.transpose();
+  s.second.col(2) = -up / column * zeta.first;
+  s.second.row(2) = s.second.col(2).transpose();
+  s.curvature_slope = -share * zeta.curvature_slope;
+  s.curvature_slope[2] = -up / column * zeta.second(3, 3);
+  return s;
+}
+
+// h(x, y, z, t) = E(x, y, s(x, y, z, t), t).
+Series stretched(const Series& E, const StretchedHeight& s) {
   Eigen::Vector4d e = E.first, mixed = E.second.col(2);
   const double e_s = e[2], e_ss = mixed[2];
   const Eigen::Vector3d e_si = mixed.head<3>();  // of E_s, by x, y, s
@@ -142,12 +170,14 @@ Series stretched(const Series& E, const Series& zeta) {
   second.col(2).setZero();
   Series h;
   h.value = E.value;
-  h.first = e + e_s * s;
-  h.second = second + mixed * s.transpose() + s * mixed.transpose() + e_ss * s * s.transpose() - e_s * zeta.second;
+  h.first = e + e_s * s.first;
+  h.second = second + mixed * s.first.transpose() + s.first * mixed.transpose() +
+             e_ss * s.first * s.first.transpose() + e_s * s.second;
   // Of h_tt = E_tt + 2 E_st s_t + E_ss s_t^2 + E_s s_tt, to the second order in the waves.
-  const Eigen::Vector3d up = s.head<3>(), s_it = -zeta.second.col(3).head<3>(), s_itt = -zeta.curvature_slope;
+  const Eigen::Vector3d up = s.first.head<3>(), s_it = s.second.col(3).head<3>();
   h.curvature_slope = E.curvature_slope + E.curvature_slope[2] * (up - Eigen::Vector3d::UnitZ()) +
-                      2.0 * s[3] * E.rate_slope + 2.0 * mixed[3] * s_it - zeta.second(3, 3) * e_si + e_s * s_itt;
+                      2.0 * s.first[3] * E.rate_slope + 2.0 * mixed[3] * s_it + s.second(3, 3) * e_si +
+                      e_s * s.curvature_slope;
   return h;
 }
 
@@ -187,7 +217,7 @@ std::array<HermiteWeights, 3> hermite_weights(double s, double H) {
 WaveExpansion::WaveExpansion(std::shared_ptr<const WaveField> waves) : waves_(std::move(waves)) {
   double energy = 0.0, ninth = 0.0, mixed = 0.0, third = 0.0, steep = 0.0;  // sums of a^2, (a w^9)^2, (a w^2 k)^2 ...
   for (const WaveComponent& c : waves_->components()) {
-    const auto factors = factors_of(c);
+    const auto factors = factors_of(c, bed_reflection(c.wavenumber, waves_->depth()));
     factor_.insert(factor_.end(), factors.begin(), factors.end());
     const double a2 = c.amplitude * c.amplitude, w = c.frequency, k = c.wavenumber;
     energy += a2;
@@ -211,7 +241,8 @@ void WaveExpansion::expand(double t, std::span<const double> x, std::span<const 
   for (int j = 0; j < count; ++j) {
     const WaveComponent& c = components[static_cast<std::size_t>(j)];
     frozen[j] = {1.0, c.wavenumber, c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading,
-                 std::remainder(c.phase - c.frequency * t, 2.0 * std::numbers::pi)};
+                 std::remainder(c.phase - c.frequency * t, 2.0 * std::numbers::pi),
+                 bed_reflection(c.wavenumber, waves_->depth())};
   }
   // A sea without a ramp stands as it does before a run begins, too, where the first instant of a run may lie.
   const auto [r, rate, curvature] = waves_->ramp_derivatives(std::max(t, 0.0));
@@ -222,11 +253,15 @@ void WaveExpansion::expand(double t, std::span<const double> x, std::span<const 
       const std::size_t i = start + std::min(p, n - 1);
       block.x[p] = x[i], block.y[p] = y[i], block.z[p] = z[i];
     }
-    sum_expansions(frozen.data(), count, r, factor_.data(), block);
+    if (waves_->deep())
+      sum_expansions(frozen.data(), count, r, factor_.data(), block);
+    else
+      sum_expansions_over_bed(frozen.data(), count, r, waves_->depth(), factor_.data(), block);
     for (std::size_t p = 0; p < n; ++p) {
       const Series zeta = elevation_of(&block.elevation[0][p]).ramped(r, rate, curvature);
       const Series E = head_of(&block.head[0][p]).ramped(r, rate, curvature);
-      store(zeta, stretched(E, zeta), stride, terms + start + p);
+      const StretchedHeight s = waves_->deep() ? shifted(zeta) : squeezed(zeta, block.z[p], waves_->depth());
+      store(zeta, stretched(E, s), stride, terms + start + p);
     }
   }
 }

@@ -1,7 +1,7 @@
 // Elevation and pressure of an irregular sea near given points, by a Taylor series of the second order.
 //
 //   zeta(x + dx, y + dy, t + dt)          and   h(x + dx, y + dy, z + dz, t + dt),
-//   h = r(t) sum_j a_j exp(k_j (z - zeta)) cos th_j                            (the dynamic head of wave_field.h)
+//   h = r(t) sum_j a_j C_j(z') cos th_j                                         (the dynamic head of wave_field.h)
 //
 // One sum over the components gives the series' 30 terms at a point; the series then serves every instant and iterate
 // near by. Between two instants t and t + H that have such series, with a third at t - H, the field is the Hermite
@@ -15,7 +15,8 @@
 // the pressure at a fixed depth under the surface; what is left out is its product with the slopes and rates of the
 // elevation, 0.06 (w H)^2 k d times 2 k zeta, where d is the part of the displacement that all three share: how far a
 // hull is from the straight line through the poses it was expected in. Above the surface h is continued analytically,
-// not linearly.
+// not linearly. Over a bed z' depends on z and zeta by a quotient, whose derivatives are exact to the second order in
+// the waves.
 #pragma once
 
 #include <array>

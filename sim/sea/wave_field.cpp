@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/number_text.h"
-#include "sim/sea/spectrum.h"
+#include "sim/sea/dispersion.h"
 #include "sim/sea/wave_sums.h"
 
 namespace stillhook {
@@ -34,52 +33,13 @@ void sample_calm(std::span<const double> z, bool gradients, const WaveSamples& o
   std::ranges::fill(out.head_z, -1.0);
 }
 
-[[noreturn]] void refuse(const SeaStateSpec& state, const char* field, const std::string& sentence) {
-  throw SpecificationError("sea.states." + state.name, field, sentence);
-}
-
-void check(const SeaStateSpec& s) {
-  if (!std::isfinite(s.heading)) refuse(s, "heading", "must be a number, got " + number_text(s.heading));
-  if (s.type == SeaStateSpec::Type::regular) {
-    if (!(s.amplitude >= 0.0) || !std::isfinite(s.amplitude))
-      refuse(s, "amplitude", "must be >= 0 m, got " + number_text(s.amplitude));
-    if (!(s.frequency > 0.0) || !std::isfinite(s.frequency))
-      refuse(s, "frequency", "must be > 0 rad/s, got " + number_text(s.frequency));
-    if (!std::isfinite(s.phase)) refuse(s, "phase", "must be a number, got " + number_text(s.phase));
-    return;
-  }
-  if (!(s.significant_height > 0.0) || !std::isfinite(s.significant_height))
-    refuse(s, "significant_height", "must be > 0 m, got " + number_text(s.significant_height));
-  if (!(s.peak_period > 0.0) || !std::isfinite(s.peak_period))
-    refuse(s, "peak_period", "must be > 0 s, got " + number_text(s.peak_period));
-  // From 1/0.287 = e^3.48 on the factor 1 - 0.287 ln gamma is negative; measured spectra lie between 1 and 7.
-  if (s.gamma != 0.0 && !(s.gamma >= 1.0 && s.gamma <= 10.0))
-    refuse(s, "gamma", "must lie between 1 and 10 (or be left out), got " + number_text(s.gamma));
-  if (!(s.spreading >= 0.0) || !std::isfinite(s.spreading))
-    refuse(s, "spreading", "must be >= 0, got " + number_text(s.spreading));
-  if (s.components < 1) refuse(s, "components", "must be at least 1, got " + std::to_string(s.components));
-  if (s.directions < 1) refuse(s, "directions", "must be at least 1, got " + std::to_string(s.directions));
-  if ((s.directions > 1) != (s.spreading > 0.0))
-    refuse(s, "directions", "a short-crested sea needs both more than one direction and a spreading exponent > 0");
-  if (static_cast<long>(s.components) * s.directions > kMaxWaveComponents)
-    refuse(s, "components",
-           "components times directions must be at most " + std::to_string(kMaxWaveComponents) + ", got " +
-               std::to_string(static_cast<long>(s.components) * s.directions));
-}
-
-// Stokes' limit in deep water: a wave higher than a seventh of its length breaks.
-void check_steepness(const SeaStateSpec& s, double gravity) {
-  const double steepness = 2.0 * s.amplitude * s.frequency * s.frequency / (kTurn * gravity);
-  if (steepness > 1.0 / 7.0)
-    refuse(s, "amplitude",
-           "the wave would break: height over length is " + number_text(steepness) + ", at most 1/7 is possible");
-}
-
 }  // namespace
 
-WaveField::WaveField(std::vector<WaveComponent> components, double ramp)
+WaveField::WaveField(std::vector<WaveComponent> components, double ramp, double depth)
     : components_(std::move(components)), ramp_(ramp) {
   if (components_.size() > kMaxWaveComponents) throw std::invalid_argument("too many wave components");
+  const auto feels_bed = [&](const WaveComponent& c) { return bed_reflection(c.wavenumber, depth) > 0.0; };
+  if (std::ranges::any_of(components_, feels_bed)) depth_ = depth;
 }
 
 double WaveField::ramp(double t) const { return ramp_derivatives(t)[0]; }
@@ -119,7 +79,7 @@ void WaveField::sample(double t, std::span<const double> x, std::span<const doub
   for (int j = 0; j < count; ++j) {
     const WaveComponent& c = components_[j];
     waves[j] = {r * c.amplitude, c.wavenumber, c.wavenumber * c.cos_heading, c.wavenumber * c.sin_heading,
-                phase_at(c, t)};
+                phase_at(c, t), bed_reflection(c.wavenumber, depth_)};
   }
 
   const bool head = !out.head.empty();
@@ -130,7 +90,7 @@ void WaveField::sample(double t, std::span<const double> x, std::span<const doub
       const std::size_t i = start + std::min(p, n - 1);
       block.x[p] = x[i], block.y[p] = y[i], block.z[p] = z[i];
     }
-    evaluate_waves(waves.data(), count, head, gradients, block);
+    evaluate_waves(waves.data(), count, deep() ? 0.0 : depth_, head, gradients, block);
     copy_out(block.elevation, start, n, out.elevation);
     if (head) copy_out(block.head, start, n, out.head);
     if (!gradients) continue;
@@ -143,26 +103,39 @@ void WaveField::sample(double t, std::span<const double> x, std::span<const doub
   }
 }
 
-Vector3 WaveField::velocity(const Vector3& p_W, double t) const {
-  Vector3 v = Vector3::Zero();
-  for (const WaveComponent& c : components_) {
-    const double theta = c.wavenumber * (p_W.x() * c.cos_heading + p_W.y() * c.sin_heading) + phase_at(c, t);
-    const double speed = c.amplitude * c.frequency * std::exp(c.wavenumber * std::min(p_W.z(), 0.0));
-    v += speed * Vector3(c.cos_heading * std::cos(theta), c.sin_heading * std::cos(theta), std::sin(theta));
-  }
-  return ramp(t) * v;
+double WaveField::stretched_height(const Vector3& p_W, double t, Stretching stretching) const {
+  if (stretching == Stretching::vertical) return std::clamp(p_W.z(), -depth_, 0.0);
+  const double zeta = elevation(p_W.x(), p_W.y(), t);
+  const double under = std::min(p_W.z() - zeta, 0.0);
+  return deep() ? under : std::max(under * depth_ / (depth_ + zeta), -depth_);
 }
 
-WaveField build_wave_field(const SeaStateSpec& state, double gravity, double ramp) {
-  if (state.type == SeaStateSpec::Type::calm) return {};
-  check(state);
-  if (!(gravity > 0.0)) throw SpecificationError("sea", "gravity", "must be > 0 m/s2, got " + number_text(gravity));
-  if (!(ramp >= 0.0)) throw SpecificationError("sea", "ramp", "must be >= 0 s, got " + number_text(ramp));
-  if (state.type != SeaStateSpec::Type::regular) return {spectrum_components(state, gravity), ramp};
-  check_steepness(state, gravity);
-  if (state.amplitude == 0.0) return {};
-  const double w = state.frequency;
-  return {{{state.amplitude, w, w * w / gravity, std::cos(state.heading), std::sin(state.heading), state.phase}}, ramp};
+WaterMotion WaveField::motion(const Vector3& p_W, double t, Stretching stretching) const {
+  const auto [r, rate, curvature] = ramp_derivatives(t);
+  WaterMotion m;
+  if (calm() || r == 0.0) return m;
+  const double z = stretched_height(p_W, t, stretching);
+  for (const WaveComponent& c : components_) {
+    const double theta = c.wavenumber * (p_W.x() * c.cos_heading + p_W.y() * c.sin_heading) + phase_at(c, t);
+    const double fall = std::exp(c.wavenumber * z);
+    const double bed = bed_reflection(c.wavenumber, depth_), back = bed / fall;  // exp(-k (z + 2h))
+    const double size = c.amplitude * c.frequency / (1.0 - bed), along = size * (fall + back), up = size * (fall - back);
+    const double cosine = std::cos(theta), sine = std::sin(theta);
+    m.velocity += Vector3(along * c.cos_heading * cosine, along * c.sin_heading * cosine, up * sine);
+    m.acceleration +=
+        c.frequency * Vector3(along * c.cos_heading * sine, along * c.sin_heading * sine, -up * cosine);
+  }
+  m.acceleration = r * m.acceleration + rate * m.velocity;
+  m.velocity *= r;
+  return m;
+}
+
+Vector3 WaveField::velocity(const Vector3& p_W, double t, Stretching stretching) const {
+  return motion(p_W, t, stretching).velocity;
+}
+
+Vector3 WaveField::acceleration(const Vector3& p_W, double t, Stretching stretching) const {
+  return motion(p_W, t, stretching).acceleration;
 }
 
 }  // namespace stillhook

@@ -13,9 +13,9 @@ inline constexpr int kWaveBlock = 16;
 inline constexpr int kMaxWaveComponents = 1024;
 
 /// One component at a fixed time: amplitude a (m, ramp included), wavenumber k and its parts along x and y (1/m),
-/// phase (rad) so that theta = kx x + ky y + phase.
+/// phase (rad) so that theta = kx x + ky y + phase; bed = exp(-2 k h), which deep water does not look at.
 struct FrozenWave {
-  double a, k, kx, ky, phase;
+  double a, k, kx, ky, phase, bed;
 };
 
 /// kWaveBlock points in, elevation (m) and stretched pressure head (m) with their gradients out.
@@ -26,7 +26,7 @@ struct alignas(64) WaveBlock {
 };
 
 /// Evaluates `count` <= kMaxWaveComponents components at a block of points. The elevation is always computed; the head
-/// when `head`; gradients of what is computed when `gradients`.
-void evaluate_waves(const FrozenWave* waves, int count, bool head, bool gradients, WaveBlock& block);
+/// when `head`; gradients of what is computed when `gradients`. depth (m): of the bed, 0 for deep water.
+void evaluate_waves(const FrozenWave* waves, int count, double depth, bool head, bool gradients, WaveBlock& block);
 
 }  // namespace stillhook

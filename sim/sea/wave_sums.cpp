@@ -80,8 +80,19 @@ inline void add_component(const double* factor, const Lanes& c, const Lanes& s, 
   for (int i = Cosines; i < Sums; ++i) sum[i] += factor[i] * s;
 }
 
-// L points of a block, from `first` on.
-void sum_lanes(const FrozenWave* waves, int count, double ramp, const double* factor, int first, ExpansionBlock& b) {
+// The same with sinh, given as c_odd and s_odd, where it belongs.
+inline void add_over_bed(const double* factor, const Lanes& c, const Lanes& s, const Lanes& c_odd, const Lanes& s_odd,
+                         Lanes (&sum)[kHeadSums]) {
+#pragma GCC unroll 32
+  for (int i = 0; i < kHeadCosines; ++i) sum[i] += factor[i] * (kOddInDepth[i] ? c_odd : c);
+#pragma GCC unroll 32
+  for (int i = kHeadCosines; i < kHeadSums; ++i) sum[i] += factor[i] * (kOddInDepth[i] ? s_odd : s);
+}
+
+// L points of a block, from `first` on. depth: over a bed alone.
+template <bool kBed>
+void sum_lanes(const FrozenWave* waves, int count, double ramp, double depth, const double* factor, int first,
+               ExpansionBlock& b) {
   Lanes c[kMaxWaveComponents], s[kMaxWaveComponents];
   const Lanes x = load(b.x + first), y = load(b.y + first), z = load(b.z + first);
   Lanes elevation[kElevationSums] = {};
@@ -91,11 +102,18 @@ void sum_lanes(const FrozenWave* waves, int count, double ramp, const double* fa
     add_component<kElevationCosines>(factor + j * kExpansionFactors, c[j], s[j], elevation);
   }
   for (int i = 0; i < kElevationSums; ++i) store(elevation[i], b.elevation[i] + first);
-  const Lanes stretched = z - ramp * elevation[0];
+  Lanes stretched = z - ramp * elevation[0];
+  if (kBed) stretched *= depth / (depth + ramp * elevation[0]);
   Lanes head[kHeadSums] = {};
   for (int j = 0; j < count; ++j) {
     const Lanes e = exponential(waves[j].k * stretched);
-    add_component<kHeadCosines>(factor + j * kExpansionFactors + kElevationSums, e * c[j], e * s[j], head);
+    const double* of_head = factor + j * kExpansionFactors + kElevationSums;
+    if (kBed) {
+      const Lanes back = waves[j].bed / e, even = e + back, odd = e - back;
+      add_over_bed(of_head, even * c[j], even * s[j], odd * c[j], odd * s[j], head);
+    } else {
+      add_component<kHeadCosines>(of_head, e * c[j], e * s[j], head);
+    }
   }
   for (int i = 0; i < kHeadSums; ++i) store(head[i], b.head[i] + first);
 }
@@ -114,7 +132,14 @@ inline double total(const Lanes& sum) {
 }  // namespace
 
 void sum_expansions(const FrozenWave* waves, int count, double ramp, const double* factor, ExpansionBlock& block) {
-  for (int first = 0; first < kWaveBlock; first += L) sum_lanes(waves, count, ramp, factor, first, block);
+  for (int first = 0; first < kWaveBlock; first += L)
+    sum_lanes<false>(waves, count, ramp, 0.0, factor, first, block);
+}
+
+void sum_expansions_over_bed(const FrozenWave* waves, int count, double ramp, double depth, const double* factor,
+                             ExpansionBlock& block) {
+  for (int first = 0; first < kWaveBlock; first += L)
+    sum_lanes<true>(waves, count, ramp, depth, factor, first, block);
 }
 
 void sum_force(const double* wave, const double* force, int blocks, double x, double y, double t, double* sums) {

@@ -14,6 +14,9 @@ namespace stillhook {
 /// zeta)) times the same.
 inline constexpr int kElevationCosines = 7, kElevationSums = 12;
 inline constexpr int kHeadCosines = 11, kHeadSums = 20;
+/// Sums of the head that hold one derivative by s, or three: over a bed they have sinh where the others have cosh.
+inline constexpr bool kOddInDepth[kHeadSums] = {false, true, false, false, false, false, false, false, true,  true,
+                                                true,  false, false, false, true,  true,  true,  false, false, false};
 /// Factors of one component: those of the elevation's sums, then those of the head's.
 inline constexpr int kExpansionFactors = kElevationSums + kHeadSums;
 
@@ -26,6 +29,10 @@ struct alignas(64) ExpansionBlock {
 /// Fills an ExpansionBlock for sim/sea/wave_expansion.h. factor[j * kExpansionFactors + i]: of component j in sum i;
 /// the amplitude belongs to the factors, waves[j].a is not looked at. zeta is `ramp` times the elevation's first sum.
 void sum_expansions(const FrozenWave* waves, int count, double ramp, const double* factor, ExpansionBlock& block);
+/// The same over a bed `depth` (m) below the still water, with exp(k s) + exp(-k (s + 2h)) or, where kOddInDepth, the
+/// difference of the two in place of exp(k s), s = h (z - zeta) / (h + zeta).
+void sum_expansions_over_bed(const FrozenWave* waves, int count, double ramp, double depth, const double* factor,
+                             ExpansionBlock& block);
 
 /// Components in blocks of this many for the sums at a point. Of each block `wave` holds kx, ky, w and phase,
 /// kPhaseBlock values each; the last block is filled up with waves of no weight. th = kx x + ky y - w t + phase.

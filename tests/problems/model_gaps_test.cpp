@@ -23,7 +23,9 @@ std::string gaps_of(std::vector<Override> more) {
 
 TEST_CASE("waves that feel the bottom are told", "[gaps]") {
   // 0.9 rad/s: 2 pi 9.80665 / 0.81 = 76.07 m, half of it 38.03 m.
-  CHECK_THAT(gaps_of({{"sea.depth_m", "38.0"}}), Contains("the waves feel the bottom: those of 7.0 s are 76 m long"));
+  CHECK_THAT(gaps_of({{"sea.depth_m", "38.0"}}),
+             Contains("the waves feel the bottom: those of 7.0 s are 76 m long in 38.0 m of water, 0.4 % shorter than in "
+                      "deep water"));
   CHECK_THAT(gaps_of({{"sea.depth_m", "38.1"}}), !Contains("bottom"));
   CHECK_THAT(gaps_of({}), !Contains("bottom"));  // deep
 }

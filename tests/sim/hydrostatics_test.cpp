@@ -1,3 +1,5 @@
+#include "sim/body_spec.h"
+
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/mesh/hull_mesh.h"
 

@@ -7,6 +7,7 @@
 
 #include "sim/modes.h"
 #include "sim/operation.h"
+#include "sim/sea/dispersion.h"
 #include "sim/simulate.h"
 
 namespace stillhook {
@@ -90,7 +91,7 @@ ResponseAmplitude::Vector6c simulated(Specification spec, double frequency, doub
   REQUIRE(run.status == RunStatus::completed);
   const double period = 2.0 * std::numbers::pi / frequency;
   const Pose X_WB = pose_of(model.initial_state().body[0], model.system().bodies[0]);
-  const double k = frequency * frequency / kGravity;
+  const double k = wave_number(frequency, kGravity, spec.sea.wave_depth());
   const double lead = k * (X_WB.p.x() * std::cos(heading) + X_WB.p.y() * std::sin(heading));
   ResponseAmplitude::Vector6c W;
   const char* channels[6] = {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -114,18 +115,24 @@ ResponseAmplitude::Vector6c of_Bo(const LinearResponse& linear, double frequency
 
 TEST_CASE("heave of a box is that of one degree of freedom under the Froude-Krylov force", "[response]") {
   const Box box;
-  const Model model = build_model(box.specification());
-  const LinearResponse linear(model);
-  CHECK(linear.highest_frequency() == std::numeric_limits<double>::infinity());
-  for (const double w : {0.35, 0.8, 1.3, 1.9})
-    for (const double heading : {-2.0, 0.3, kYaw + 1.1}) {
-      const double k = w * w / kGravity, relative = heading - kYaw;
-      const double X = box.stiffness() * std::exp(-k * box.draft) * sinc(0.5 * k * box.length * std::cos(relative)) *
-                       sinc(0.5 * k * box.breadth * std::sin(relative));
-      const Complex expected = X / Complex(box.stiffness() - w * w * (box.mass() + box.added), -w * box.damping);
-      // The quadrature of the pressure leaves 2e-5, the clipped mesh of the hydrostatics is exact for a box.
-      CHECK(std::abs(of_Bo(linear, w, heading)[2] - expected) < 2e-4 * std::abs(expected));
-    }
+  for (const double depth : {0.0, 9.0}) {  // deep and shallow
+    Specification spec = box.specification();
+    spec.sea.depth = depth;
+    const Model model = build_model(spec);
+    const LinearResponse linear(model);
+    CHECK(linear.highest_frequency() == std::numeric_limits<double>::infinity());
+    for (const double w : {0.35, 0.8, 1.3, 1.9})
+      for (const double heading : {-2.0, 0.3, kYaw + 1.1}) {
+        const double k = depth > 0.0 ? wave_number(w, kGravity, depth) : w * w / kGravity, relative = heading - kYaw;
+        const double under_bottom =
+            depth > 0.0 ? std::cosh(k * (depth - box.draft)) / std::cosh(k * depth) : std::exp(-k * box.draft);
+        const double X = box.stiffness() * under_bottom * sinc(0.5 * k * box.length * std::cos(relative)) *
+                         sinc(0.5 * k * box.breadth * std::sin(relative));
+        const Complex expected = X / Complex(box.stiffness() - w * w * (box.mass() + box.added), -w * box.damping);
+        // The quadrature of the pressure leaves 2e-5, the clipped mesh of the hydrostatics is exact for a box.
+        CHECK(std::abs(of_Bo(linear, w, heading)[2] - expected) < 2e-4 * std::abs(expected));
+      }
+  }
 }
 
 TEST_CASE("in long waves a box follows the water", "[response]") {
@@ -175,8 +182,11 @@ TEST_CASE("another point of the body moves with it", "[response]") {
 }
 
 TEST_CASE("linear response and simulation agree in a small regular wave", "[response]") {
+  const double depth = GENERATE(0.0, 12.0);  // m: deep, and so shallow that the waves are 9 and 27 % shorter
+  CAPTURE(depth);
   SECTION("constant coefficients") {
-    const Specification spec = Box().specification();
+    Specification spec = Box().specification();
+    spec.sea.depth = depth;
     const Model model = build_model(spec);
     const LinearResponse linear(model);
     const double w = 1.1, heading = 2.1;
@@ -204,6 +214,7 @@ TEST_CASE("linear response and simulation agree in a small regular wave", "[resp
     body.hydrodynamics.coefficient_file = STILLHOOK_SOURCE_DIR "/problems/hulls/crane_110x46x4.csv";
     body.hydrodynamics.critical_fraction << 0.0, 0.0, 0.0, 0.1, 0.0, 0.0;
     spec.bodies.push_back(body);
+    spec.sea.depth = depth;
     const Model model = build_model(spec);
     const LinearResponse linear(model);
     CHECK(linear.highest_frequency() < 10.0);

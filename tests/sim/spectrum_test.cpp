@@ -1,4 +1,7 @@
+#include "sim/body_spec.h"
+
 #include "sim/sea/spectrum.h"
+#include "sim/error.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "sim/sea/dispersion.h"
 #include "sim/specification.h"
 #include "tests/sim/coefficient_sets.h"
 #include "tests/sim/wamit_sample.h"

@@ -1,7 +1,10 @@
+#include "sim/body_spec.h"
+
 #include "sim/sea/wave_expansion.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -10,17 +13,19 @@
 namespace stillhook {
 namespace {
 
-std::shared_ptr<const WaveField> sea(double ramp, double height = 2.0, double period = 7.0) {
+constexpr double kDeep = std::numeric_limits<double>::infinity();
+
+std::shared_ptr<const WaveField> sea(double ramp, double depth = kDeep) {
   SeaStateSpec s;
   s.name = "sea";
   s.type = SeaStateSpec::Type::jonswap;
-  s.significant_height = height;
-  s.peak_period = period;
+  s.significant_height = 2.0;
+  s.peak_period = 7.0;
   s.components = 40;
   s.directions = 5;
   s.spreading = 4.0;
   s.seed = 3;
-  return std::make_shared<const WaveField>(build_wave_field(s, 9.80665, ramp));
+  return std::make_shared<const WaveField>(build_wave_field(s, 9.80665, ramp, depth));
 }
 
 // Points under and a little above the surface.
@@ -67,9 +72,12 @@ TEST_CASE("the Hermite weights of three instants reproduce polynomials of degree
 TEST_CASE("a sea expanded at three instants is the sea between them, near the points") {
   const std::size_t n = 200;
   const Points at(n);
+  const double depth = GENERATE(0, 12) == 0 ? kDeep : 12.0;
+  CAPTURE(depth);
   // While the sea grows and when it has grown.
   for (const double start : {7.0, 41.3}) {
-    const auto waves = sea(20.0);
+    const auto waves = sea(20.0, depth);
+    CHECK(waves->deep() == (depth == kDeep));
     const WaveExpansion expansion(waves);
     const double H = expansion.interval();
     CHECK(H > 0.4);  // eight steps of 0.05 s: this sea's period is 7 s
@@ -186,6 +194,7 @@ TEST_CASE("a hull on its way through a sea feels the sea as it is") {
   // sum. Regular: the step's linearity alone, (k d)^2 / 2 with k = 0.083 1/m and d < 3 mm.
   const Way ways[] = {{"irregular, at its place", sea(0.0), Barge::at, 4e-5},
                       {"irregular, adrift", sea(0.0), adrift, 4e-5},
+                      {"irregular over a bed, adrift", sea(0.0, 12.0), adrift, 4e-5},
                       {"regular, adrift", regular_wave(), adrift, 5e-8}};
   for (const Way& way : ways) {
     INFO(way.name);
@@ -240,7 +249,7 @@ TEST_CASE("a hull that is far from the pose of its step takes the sea where it i
 }
 
 TEST_CASE("between two expansions the hull's Jacobian is the derivative of its force") {
-  Barge barge;
+  Barge barge(sea(0.0, GENERATE(0, 12) == 0 ? kDeep : 12.0));
   barge.element->start({}, barge.memory());
   const double t = 33.0, h = 0.05;
   const std::vector<BodyKinematics> before{Barge::at(t)};

@@ -5,6 +5,7 @@
 #include "planner/verbs/check/hinge_table.h"
 #include "planner/verbs/check/mooring_tables.h"
 #include "planner/verbs/check/natural_periods.h"
+#include "planner/verbs/check/sea_tables.h"
 #include "planner/text_number.h"
 #include "planner/verbs/check/vessel_statics.h"
 #include "sim/drive_unit.h"
@@ -90,7 +91,7 @@ std::vector<ReportTable> static_tables(const Model& model, const Operation& oper
   const std::vector<NamedEquilibrium> equilibria = all_equilibria(model, operation);
   std::vector<StaticPose> poses;
   for (const NamedEquilibrium& e : equilibria) poses.push_back(static_pose(model, e.state, e.name));
-  std::vector<ReportTable> tables;
+  std::vector<ReportTable> tables = sea_tables(model);
   if (!model.specification().operation.load.empty()) tables.push_back(place_table(model, poses));
   for (ReportTable& table : vessel_tables(model, poses)) tables.push_back(std::move(table));
   if (ReportTable angles = hinge_table(model, poses); angles.header.size() > 1) tables.push_back(std::move(angles));

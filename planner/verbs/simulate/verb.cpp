@@ -13,10 +13,9 @@ namespace {
 Case load_with_sea_seed(const CommonOptions& options) {
   Case c = load_case(options);
   if (!options.seed) return c;
-  using Type = SeaStateSpec::Type;
   const SeaSpec& sea = c.specification.sea;
   for (const SeaStateSpec& state : sea.states)
-    if (state.name == sea.active && (state.type == Type::jonswap || state.type == Type::pierson_moskowitz))
+    if (state.name == sea.active && state.seeded())
       return load_case(options, {{"sea.states." + sea.active + ".seed", std::to_string(*options.seed)}});
   throw UsageError("--seed: the active sea \"" + sea.active + "\" is not irregular, it has no seed");
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/sea/dispersion.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -116,24 +117,10 @@ void require_deep_water(const ExcitationTable& X, double gravity, double depth, 
   std::ostringstream sentence;
   sentence.precision(4);
   sentence << "holds for a depth of " << depth << " m, which waves of " << X.frequencies[0]
-           << " rad/s feel; the waves here are those of deep water: run the panel code without a bottom, or leave out "
+           << " rad/s feel; the coefficients of a hull are to be those of deep water: run the panel code without a bottom, or leave out "
               "what feels it, with database_lowest_rad_per_s = "
            << std::ceil(1000.0 * deep) / 1000.0;
   fail(source, sentence.str());
-}
-
-double wave_number(double frequency, double gravity, double depth) {
-  const double deep = frequency * frequency / gravity;
-  if (std::isinf(depth) || deep * depth > 20.0) return deep;
-  // Newton on f(k) = k tanh(k h) - w2/g from above, where f is convex: no step overshoots.
-  double k = std::max(deep, std::sqrt(deep / depth)) * 1.2;
-  for (int n = 0; n < 60; ++n) {
-    const double t = std::tanh(k * depth);
-    const double step = (k * t - deep) / (t + k * depth * (1.0 - t * t));
-    k -= step;
-    if (std::abs(step) < 1e-14 * k) break;
-  }
-  return k;
 }
 
 void to_body_origins(HydrodynamicCoefficients& c, const std::vector<Vector3>& reference, const DatabaseFrame& frame,

@@ -48,9 +48,6 @@ void require_frame(const DatabaseFrame& frame, const std::string& source);
 void require_deep_water(const ExcitationTable& X, double gravity, double depth, const DatabaseFrame& frame,
                         const std::string& source);
 
-/// Wave number k > 0 of w^2 = g k tanh(k depth); depth may be infinite. rad/m
-double wave_number(double frequency, double gravity, double depth);
-
 /// The same set about and at the hulls' origins; `reference` are the points of the database, one a hull. Waterline too.
 void to_body_origins(HydrodynamicCoefficients& coefficients, const std::vector<Vector3>& reference,
                      const DatabaseFrame& frame, double depth = std::numeric_limits<double>::infinity());

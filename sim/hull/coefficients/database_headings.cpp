@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sim/hull/coefficients/database_frame.h"
+#include "sim/sea/dispersion.h"
 #include "sim/specification.h"
 
 namespace stillhook {

@@ -12,6 +12,7 @@
 #include "sim/error.h"
 #include "sim/hull/coefficients/wamit_text.h"
 #include "sim/number_text.h"
+#include "sim/sea/dispersion.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -48,7 +49,7 @@ using Alternatives = std::vector<Alternative>;
 
 class RaoCsv {
  public:
-  RaoCsv(const RaoSpec& spec, double gravity) : spec_(spec), gravity_(gravity) { out_.path = spec.file; }
+  RaoCsv(const RaoSpec& spec, double gravity, double depth) : spec_(spec), gravity_(gravity), depth_(depth) { out_.path = spec.file; }
 
   RaoRows read() {
     std::ifstream in(spec_.file, std::ios::binary);
@@ -138,7 +139,7 @@ class RaoCsv {
     if (!(first > 0.0)) out_.fail(line, "\"" + columns_[0].as.name + "\" must be > 0, got " + number_text(first));
     row.frequency = columns_[0].as.kind == Alternative::Kind::period ? kTwoPi / first : first;
     row.heading = number(cells, columns_[1], line);
-    const double k = row.frequency * row.frequency / gravity_;
+    const double k = wave_number(row.frequency, gravity_, depth_);
     for (std::size_t i = 0; i < 6; ++i) {
       const Column& column = columns_[2 + 2 * i];
       row.amplitude[i] = number(cells, column, line) * (column.as.kind == Alternative::Kind::slope ? k : 1.0);
@@ -154,7 +155,7 @@ class RaoCsv {
   }
 
   const RaoSpec& spec_;
-  double gravity_;
+  double gravity_, depth_;
   RaoRows out_;
   std::vector<Column> columns_;  // period, heading, then amplitude and phase of each motion
 };
@@ -238,7 +239,7 @@ void RaoRows::fail(int line, const std::string& sentence) const {
   throw SpecificationError(line > 0 ? path + ":" + std::to_string(line) : path, "", sentence);
 }
 
-RaoRows read_rao_csv(const RaoSpec& spec, double gravity) { return RaoCsv(spec, gravity).read(); }
+RaoRows read_rao_csv(const RaoSpec& spec, double gravity, double depth) { return RaoCsv(spec, gravity, depth).read(); }
 
 RaoRows read_rao_wamit(const RaoSpec& spec) { return RaoWamit(spec).read(); }
 

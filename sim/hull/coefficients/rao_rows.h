@@ -35,7 +35,7 @@ struct RaoRows {
 };
 
 /// Both throw SpecificationError("<path>:<line>").
-RaoRows read_rao_csv(const RaoSpec& spec, double gravity);
+RaoRows read_rao_csv(const RaoSpec& spec, double gravity, double depth);
 RaoRows read_rao_wamit(const RaoSpec& spec);
 
 }  // namespace stillhook

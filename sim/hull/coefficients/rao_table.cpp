@@ -5,6 +5,7 @@
 
 #include "sim/hull/coefficients/rao_rows.h"
 #include "sim/number_text.h"
+#include "sim/sea/dispersion.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
@@ -32,12 +33,12 @@ double file_heading(const RaoSpec& spec, double given) {
 }
 
 /// Rows at the file's reference point and phase origin become those of Q.
-Raos at_q(const RaoRow& row, double heading, const RaoSpec& spec, const RaoFrame& frame, double gravity) {
+Raos at_q(const RaoRow& row, double heading, const RaoSpec& spec, const RaoFrame& frame, double gravity, double depth) {
   Raos X;
   for (std::size_t i = 0; i < 6; ++i)
     X[i] = std::polar(1.0, row.lag[i]) * (spec.reversed[i] ? -row.amplitude[i] : row.amplitude[i]);
   // th at the phase origin is th at Q and k along: what goes with exp(i th_0) goes with exp(i k along) exp(i th_Q).
-  const double k = row.frequency * row.frequency / gravity;
+  const double k = wave_number(row.frequency, gravity, depth);
   const double along = frame.to_phase.x() * std::cos(heading) + frame.to_phase.y() * std::sin(heading);
   for (auto& x : X) x *= std::polar(1.0, k * along);
   return moved_by(X, -frame.arm);
@@ -45,8 +46,8 @@ Raos at_q(const RaoRow& row, double heading, const RaoSpec& spec, const RaoFrame
 
 class TableBuilder {
  public:
-  TableBuilder(const BodySpec& body, double gravity, RaoRows rows)
-      : spec_(body.hydrodynamics.rao), frame_(body), gravity_(gravity), rows_(std::move(rows)) {}
+  TableBuilder(const BodySpec& body, double gravity, double depth, RaoRows rows)
+      : spec_(body.hydrodynamics.rao), frame_(body), gravity_(gravity), depth_(depth), rows_(std::move(rows)) {}
 
   RaoTable build() {
     table_.source = spec_.file;
@@ -56,7 +57,7 @@ class TableBuilder {
     for (const RaoRow& row : rows_.rows) {
       const double heading = file_heading(spec_, row.heading);
       const std::size_t cell = find_frequency(row.frequency) * table_.headings.size() + find_heading(heading);
-      const Raos X = at_q(row, heading, spec_, frame_, gravity_);
+      const Raos X = at_q(row, heading, spec_, frame_, gravity_, depth_);
       if (line[cell] > 0)
         rows_.fail(row.line, "gives a period and heading once more that line " + std::to_string(line[cell]) + " has");
       table_.values[cell] = X;
@@ -141,7 +142,7 @@ class TableBuilder {
 
   const RaoSpec& spec_;
   RaoFrame frame_;
-  double gravity_;
+  double gravity_, depth_;
   RaoRows rows_;
   RaoTable table_;
 };
@@ -166,10 +167,10 @@ Raos moved_by(const Raos& X, const Vector3& r) {
   return moved;
 }
 
-RaoTable read_rao_table(const BodySpec& body, double gravity) {
+RaoTable read_rao_table(const BodySpec& body, double gravity, double depth) {
   const RaoSpec& spec = body.hydrodynamics.rao;
-  return TableBuilder(body, gravity,
-                      spec.format == RaoSpec::Format::csv ? read_rao_csv(spec, gravity) : read_rao_wamit(spec))
+  return TableBuilder(body, gravity, depth,
+                      spec.format == RaoSpec::Format::csv ? read_rao_csv(spec, gravity, depth) : read_rao_wamit(spec))
       .build();
 }
 
@@ -209,9 +210,10 @@ Raos RaoTable::between(double frequency, double heading) const {
   return X;
 }
 
-std::vector<std::string> odd_in_long_waves(const RaoTable& table, double gravity) {
+std::vector<std::string> odd_in_long_waves(const RaoTable& table, double gravity, double depth) {
   static constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch"};
-  const double w = table.frequencies.front(), k = w * w / gravity;
+  const double w = table.frequencies.front(), k = wave_number(w, gravity, depth);
+  const double along = std::isinf(depth) ? 1.0 : 1.0 / std::tanh(k * depth);  // the water at the surface, per amplitude
   const std::complex<double> i(0.0, 1.0);
   std::vector<std::string> odd;
   if (w > kLongRaoWave) return odd;
@@ -221,7 +223,7 @@ std::vector<std::string> odd_in_long_waves(const RaoTable& table, double gravity
     std::complex<double> found, wanted_there;
     for (std::size_t h = 0; h < table.headings.size(); ++h) {
       const double b = table.headings[h];
-      const std::array<std::complex<double>, 5> wanted = {i * std::cos(b), i * std::sin(b), 1.0, i * k * std::sin(b),
+      const std::array<std::complex<double>, 5> wanted = {i * along * std::cos(b), i * along * std::sin(b), 1.0, i * k * std::sin(b),
                                                           -i * k * std::cos(b)};
       if (std::abs(wanted[n]) < kOdd * (n > 2 ? k : 1.0)) continue;
       const double miss = std::abs(table.at(0, h)[n] - wanted[n]) / std::abs(wanted[n]);

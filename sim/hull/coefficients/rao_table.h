@@ -3,7 +3,7 @@
 //   q_i(t) = a Re(X_i exp(i th)),   th = k (x cos b + y sin b) - w t + e,  the wave a cos(th) at point Q
 //
 //   X_i  m/m for surge, sway, heave of the reference point, rad/m for roll, pitch, yaw; |X| exp(i lag)
-//   b    direction towards which the wave travels, from the bow, counter-clockwise        k = w^2/g
+//   b    direction towards which the wave travels, from the bow, counter-clockwise        w^2 = g k tanh kh
 //   axes those of the heading frame at the mean pose: x forward, y port, z up; turns positive about them
 //
 // Q is the point of the plane y = 0 of the body at its centre of gravity, and the table has the translations of Q.
@@ -13,6 +13,7 @@
 
 #include <array>
 #include <complex>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,11 +55,13 @@ Raos moved_by(const Raos& of_q, const Vector3& arm);
 
 /// Reads the file of body.hydrodynamics.rao. Throws SpecificationError: of "<path>:<line>" for what the file lacks, has
 /// twice or contradicts.
-RaoTable read_rao_table(const BodySpec& body, double gravity);
+RaoTable read_rao_table(const BodySpec& body, double gravity,
+                        double depth = std::numeric_limits<double>::infinity());
 
 /// Whether the vessel follows the longest waves of the table, as everything that floats does in waves much longer than
-/// itself: surge cos b and sway sin b at a quarter of a period, heave 1 in phase, roll and pitch with the slope of the
+/// itself: surge coth kh cos b and sway coth kh sin b at a quarter of a period, heave 1 in phase, roll and pitch with the slope of the
 /// surface. A sentence for each motion that does not, empty when the table has no such waves.
-std::vector<std::string> odd_in_long_waves(const RaoTable& table, double gravity);
+std::vector<std::string> odd_in_long_waves(const RaoTable& table, double gravity,
+                                           double depth = std::numeric_limits<double>::infinity());
 
 }  // namespace stillhook
