@@ -15,6 +15,7 @@
 #include "problems/case_format.h"
 #include "problems/case_key.h"
 #include "problems/case_reader.h"
+#include "problems/spectra/sea_files.h"
 
 namespace stillhook {
 namespace {
@@ -45,6 +46,23 @@ std::string written(double value) {
 
 namespace {
 
+/// Spectra and records that seas have in files.
+void read_sea_files_of(Case& c, const Node& root, Findings& findings) {
+  SeaSpec& sea = c.specification.sea;
+  const auto read = [&](SeaStateSpec& state, const std::string& entry) {
+    const char* key = state.type == SeaStateSpec::Type::record ? "record_file" : "spectrum_file";
+    try {
+      read_sea_file(state, sea.density, sea.gravity);
+    } catch (const FileError& error) {
+      findings.add(position_of_key(root, entry, key), entry, key, error.what());
+    }
+  };
+  for (SeaStateSpec& state : sea.states) {
+    read(state, "sea.states." + state.name);
+    for (SeaStateSpec& part : state.parts) read(part, "sea.states." + state.name + ".parts." + part.name);
+  }
+}
+
 /// Fills a case, whose text, file, directory and overrides are known, from its document.
 void read_document(Node root, Case& c) {
   Findings findings(c.file);
@@ -57,6 +75,8 @@ void read_document(Node root, Case& c) {
   check_plan(c, root, findings);
   check_varied_moves(c, root, findings);
   check_fit(c, root, findings);
+  findings.throw_if_any();
+  read_sea_files_of(c, root, findings);
   findings.throw_if_any();
   if (c.title.empty()) c.title = c.name;
   c.specification.name = c.name;

@@ -154,8 +154,15 @@ class LiftCheck {
       report(entry, "spreading_2s", "cannot stand beside spreading: waves spread in one of the two ways");
     if (waves.directions > 1 && !(waves.spreading > 0.0) && !(waves.spreading_2s > 0.0))
       report(entry, "directions", "more than 1 needs spreading > 0");
-    if (waves.type == SeaStateSpec::Type::sum && written(entry, "heading_deg"))
+    using Type = SeaStateSpec::Type;
+    if (waves.type == Type::sum && written(entry, "heading_deg"))
       report(entry, "heading_deg", "has no meaning for a sum: each part has its own");
+    if (waves.type == Type::spectrum && written(entry, "heading_deg"))
+      report(entry, "heading_deg", "has no meaning for a 2-D spectrum: its directions stand in the file");
+    if (waves.type == Type::record && !written(entry, "heading_deg"))
+      report(entry, "heading_deg", "is required with type = \"record\": one gauge does not say where waves go");
+    if (waves.type == Type::record && !(waves.record_file.lowest < waves.record_file.highest))
+      report(entry, "highest_rad_per_s", "must be above lowest_rad_per_s");
   }
 
   /// The unit that a position, travel or speed of this drive is given in.

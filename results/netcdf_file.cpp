@@ -254,4 +254,63 @@ std::vector<std::string> NetcdfFile::texts_of_variable_length(int variable, std:
   return values;
 }
 
+std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions(int variable) const {
+  int rank = 0;
+  check(nc_inq_varndims(id_, variable, &rank), "dimensions");
+  std::vector<int> ids(static_cast<std::size_t>(rank));
+  check(nc_inq_vardimid(id_, variable, ids.data()), "dimensions");
+  std::vector<Dimension> result;
+  for (const int id : ids) {
+    char name[NC_MAX_NAME + 1] = {};
+    std::size_t size = 0;
+    check(nc_inq_dim(id_, id, name, &size), "dimensions");
+    result.push_back({name, size});
+  }
+  return result;
+}
+
+std::optional<std::string> NetcdfFile::text_if_any(int variable, const std::string& name) const {
+  std::size_t length = 0;
+  nc_type type = NC_NAT;
+  if (nc_inq_att(id_, variable, name.c_str(), &type, &length) != NC_NOERR) return std::nullopt;
+  if (type == NC_STRING && length == 1) {
+    char* pointer = nullptr;
+    check(nc_get_att_string(id_, variable, name.c_str(), &pointer), "attribute " + name);
+    std::string value = pointer ? pointer : "";
+    nc_free_string(1, &pointer);
+    return value;
+  }
+  if (type != NC_CHAR) return std::nullopt;
+  std::string value(length, '\0');
+  check(nc_get_att_text(id_, variable, name.c_str(), value.data()), "attribute " + name);
+  value.erase(std::min(value.find('\0'), length));
+  return value;
+}
+
+std::optional<double> NetcdfFile::number_if_any(int variable, const std::string& name) const {
+  std::size_t length = 0;
+  nc_type type = NC_NAT;
+  if (nc_inq_att(id_, variable, name.c_str(), &type, &length) != NC_NOERR || length != 1 || type == NC_CHAR ||
+      type == NC_STRING)
+    return std::nullopt;
+  double value = 0.0;
+  check(nc_get_att_double(id_, variable, name.c_str(), &value), "attribute " + name);
+  return value;
+}
+
+std::vector<double> NetcdfFile::block(int variable, const std::vector<std::size_t>& start,
+                                      const std::vector<std::size_t>& count) const {
+  constexpr std::size_t kMost = 100'000'000;  // values: 800 MB
+  const std::vector<Dimension> all = dimensions(variable);
+  if (all.size() != start.size() || all.size() != count.size()) check(NC_EINVAL, "a block of another rank");
+  std::size_t total = 1;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (count[i] > 0 && total > kMost / count[i]) check(NC_ENOMEM, "a block of too many values");
+    total *= count[i];
+  }
+  std::vector<double> values(total);
+  if (total > 0) check(nc_get_vara_double(id_, variable, start.data(), count.data(), values.data()), "cannot be read");
+  return values;
+}
+
 }  // namespace stillhook

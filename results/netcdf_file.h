@@ -1,9 +1,10 @@
 // A thin, checked hold on the NetCDF C API: opens, closes, and turns every error code into a sentence. Used by
-// archive*.cpp. The NetCDF library is not thread-safe: one call at a time, over all files.
+// archive*.cpp and by the readers of 2-D spectra (problems/spectra). The NetCDF library is not thread-safe: one call at a time, over all files.
 #pragma once
 
 #include <netcdf.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,19 @@ class NetcdfFile {
   std::vector<std::string> texts(const std::string& variable, std::size_t count) const;
   /// The first `count` of a variable with one dimension.
   std::vector<double> first_doubles(int variable, std::size_t count) const;
+
+  // Reading files of other programs, which may lack anything.
+  static constexpr int kGlobal = NC_GLOBAL;  // as `variable`: an attribute of the file
+  struct Dimension {
+    std::string name;
+    std::size_t size = 0;
+  };
+  std::vector<Dimension> dimensions(int variable) const;
+  std::optional<std::string> text_if_any(int variable, const std::string& name) const;
+  std::optional<double> number_if_any(int variable, const std::string& name) const;
+  /// A block of a variable as it is stored, row-major.
+  std::vector<double> block(int variable, const std::vector<std::size_t>& start,
+                            const std::vector<std::size_t>& count) const;
 
  private:
   std::vector<std::string> texts_of_variable_length(int variable, std::size_t count) const;

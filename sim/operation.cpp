@@ -7,6 +7,7 @@
 #include "sim/lifting/contact.h"
 #include "sim/multibody/equilibrium.h"
 #include "sim/number_text.h"
+#include "sim/sea/wave_record.h"
 #include "sim/spatial/constants.h"
 #include "sim/statics.h"
 #include "sim/swing_period.h"
@@ -232,6 +233,18 @@ Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<d
 
 namespace {
 
+// A sea made of a record repeats after it, which no sea does.
+void refuse_longer_than_record(const Model& model, const Operation& operation) {
+  const SeaStateSpec* sea = model.specification().sea.active_state();
+  if (!sea || sea->type != SeaStateSpec::Type::record || !sea->record) return;
+  const double length = record_length(*sea->record);
+  if (operation.planned_duration() <= length) return;
+  throw SpecificationError("sea.states." + sea->name, "record",
+                           "lasts " + number_text(length) + " s, the operation " +
+                               number_text(operation.planned_duration()) +
+                               " s without waiting for events: the sea would repeat");
+}
+
 // Phase after phase; `end_of_phase` gives the equilibrium at the end of a phase from that before it.
 template <class F>
 Operation with_phases(const Model& model, std::size_t phases, double until, F end_of_phase) {
@@ -251,6 +264,7 @@ Operation with_phases(const Model& model, std::size_t phases, double until, F en
     operation.phases.push_back(timed_phase(model, spec, travels_between(model, spec, before, after),
                                            operation.equilibria[p], operation.equilibria[p + 1]));
   }
+  refuse_longer_than_record(model, operation);
   return operation;
 }
 
