@@ -1,5 +1,7 @@
 // The reference lift at rest against the table of the reference data set: two independent calculations of the statics
 // that agree to its last digit but one. Lengths are geometric (stretched), tensions per side in t.
+#include "sim/body_spec.h"
+
 #include <catch2/catch.hpp>
 
 #include "sim/hull/hydrostatics.h"
