@@ -15,7 +15,7 @@ set(wrapped
   "<ceres/jet|^sim/|the dual numbers of Ceres"
   "<fcl|^results/clearance\\.cpp$|FCL"
   "<netcdf|^results/netcdf_file\\.(h|cpp)$|NetCDF"
-  "<hdf5|^(sim/hull/hdf5_file|sim/guarded_read|results/netcdf_file)\\.cpp$|HDF5"
+  "<hdf5|^(sim/hull/coefficients/hdf5_file|sim/guarded_read|results/netcdf_file)\\.cpp$|HDF5"
   "<xlsxwriter|^results/export_xlsx\\.cpp$|libxlsxwriter"
   "<CLI/|^planner/cli/(command_line|command_tree|usage_fault)\\.cpp$|CLI11"
   "<spdlog/|^planner/(cli/|verbs/[a-z]+/verb\\.cpp)|spdlog"
