@@ -43,8 +43,7 @@ std::string of_hulls(double frequency, double depth) {
   const char* than = depth > kDepth.front() ? "less than " : depth < kDepth.back() ? "more than " : "";
   return fmt::format(
       "what hulls do to them is calculated as in deep water, where a box barge of 110 m x 46 m with a draft of 4 m, "
-      "for "
-      "one, lacks {}{:.0f} % of the heave force it has in beam seas of this period and {}{:.0f} % of its heave damping",
+      "for one, lacks {}{:.0f} % of the heave force it has in beam seas of this period and {}{:.0f} % of its heave damping",
       than, 100.0 - 1e4 / (100.0 + percent(kForce)), than, 100.0 - 1e4 / (100.0 + percent(kDamping)));
 }
 
@@ -55,7 +54,10 @@ std::vector<std::string> shallow_water_gaps(const SeaSpec& sea) {
   if (!state || !(sea.depth > 0.0)) return {};
   const std::vector<SeaStatistics> numbers = sea_statistics(*state);
   if (numbers.empty() || !(numbers.back().significant_height > 0.0)) return {};
-  const double period = numbers.back().peak_period, omega = kTwoPi / period, h = sea.depth;
+  // Of several systems the longest feels the bottom first, though another may hold the energy.
+  double period = 0.0;
+  for (const SeaStatistics& system : numbers) period = std::max(period, system.peak_period);
+  const double omega = kTwoPi / period, h = sea.depth;
   const double deep = kTwoPi * sea.gravity / (omega * omega);
   if (!(h < 0.5 * deep)) return {};
   const double length = kTwoPi / wave_number(omega, sea.gravity, h);

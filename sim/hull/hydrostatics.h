@@ -15,6 +15,7 @@
 #include <array>
 #include <memory>
 
+#include "sim/body_spec.h"
 #include "sim/channel_kind.h"
 #include "sim/hull/mesh/mesh.h"
 #include "sim/multibody/force_element.h"

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sim/sea/sea_spec.h"
+#include "sim/spatial/pose.h"
 
 namespace stillhook {
 

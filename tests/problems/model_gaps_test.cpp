@@ -30,6 +30,18 @@ TEST_CASE("waves that feel the bottom are told", "[gaps]") {
   CHECK_THAT(gaps_of({}), !Contains("bottom"));  // deep
 }
 
+TEST_CASE("a swell that feels the bottom is told although the wind sea holds the energy", "[gaps]") {
+  // Waves of 8 s are 100 m long and those of 14 s 306 m: 60 m of water is deep for the first alone.
+  const std::string parts =
+      "[{ name = \"wind\", type = \"jonswap\", significant_height_m = 1.5, peak_period_s = 8.0, heading_deg = 90.0 }, "
+      "{ name = \"swell\", type = \"jonswap\", significant_height_m = 0.5, peak_period_s = 14.0, heading_deg = 0.0 }]";
+  const std::string sum =
+      "[{ name = \"crossed\", type = \"sum\", parts = " + parts +
+      " }, { name = \"swell\", type = \"regular\", amplitude_m = 0.1, frequency_rad_per_s = 0.9, heading_deg = 0.0 }]";
+  CHECK_THAT(gaps_of({{"sea.depth_m", "60.0"}, {"sea.active", "\"crossed\""}, {"sea.states", sum}}),
+             Contains("the waves feel the bottom: those of 14.0 s"));
+}
+
 TEST_CASE("a load that goes through the surface is told, one that stays in air is not", "[gaps]") {
   CHECK_THAT(gaps_of({}), !Contains("surface"));
   CHECK_THAT(gaps_of({{"operation.phases.hoist_up.moves.hoist.travel_m", "-7.0"}}),
