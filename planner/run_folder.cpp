@@ -73,6 +73,6 @@ RunFolder::RunFolder(std::string path, Mode mode) : path_(std::move(path)) {
   }
 }
 
-std::string default_folder(const Case& c, const std::string& verb) { return "runs/" + c.name + "-" + verb; }
+std::string default_folder(const std::string& name, const std::string& verb) { return "runs/" + name + "-" + verb; }
 
 }  // namespace stillhook

@@ -58,7 +58,7 @@ class RunFolder {
   FolderLock lock_;
 };
 
-/// runs/<case>-<verb>
-std::string default_folder(const Case& c, const std::string& verb);
+/// runs/<name>-<verb>; the name is the case's, or what a verb without a case calls its run.
+std::string default_folder(const std::string& name, const std::string& verb);
 
 }  // namespace stillhook

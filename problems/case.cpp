@@ -22,8 +22,7 @@ namespace {
 
 std::string override_origin(const Override& setting) { return "--set " + setting.key + "=" + setting.value; }
 
-Node document_of(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
-  Node root = parse_document(text, file);
+void set_overrides(Node& root, const std::vector<Override>& overrides) {
   for (const Override& setting : overrides) {
     const std::string origin = override_origin(setting);
     Node value = parse_value(setting.key, setting.value);
@@ -34,6 +33,11 @@ Node document_of(const std::string& text, const std::string& file, const std::ve
       throw CaseError(origin + ": " + error.what());
     }
   }
+}
+
+Node document_of(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  Node root = parse_document(text, file);
+  set_overrides(root, overrides);
   return root;
 }
 
@@ -75,6 +79,7 @@ void read_document(Node root, Case& c) {
   check_plan(c, root, findings);
   check_varied_moves(c, root, findings);
   check_fit(c, root, findings);
+  check_weather(c.weather, root, findings);
   findings.throw_if_any();
   read_sea_files_of(c, root, findings);
   findings.throw_if_any();
@@ -97,6 +102,22 @@ Case read_case_text(const std::string& text, const std::string& name, const std:
   c.overrides = overrides;
   read_document(document_of(text, name, overrides), c);
   return c;
+}
+
+WeatherSpec read_weather_settings(const std::string& directory, const std::vector<Override>& overrides) {
+  for (const Override& setting : overrides)
+    if (!setting.key.starts_with("weather."))
+      throw CaseError(override_origin(setting) +
+                      ": without a case only keys of the section weather can be set, as in --set weather.operation_h=10");
+  Node root;
+  set_overrides(root, overrides);
+  Findings findings("--set");
+  WeatherSpec weather;
+  TableReader reader(directory, findings);
+  reader.read(weather_table(), root.at("weather"), &weather, "weather");
+  check_weather(weather, root, findings);
+  findings.throw_if_any();
+  return weather;
 }
 
 std::string resolved_text(const Case& c) { return write_document(*c.document); }

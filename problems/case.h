@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "problems/fit_spec.h"
+#include "problems/weather_spec.h"
 #include "results/limits.h"
 #include "sim/error.h"
 #include "sim/operation.h"
@@ -101,6 +102,7 @@ struct Case {
   PlanSpec plan;
   TuneSpec tune;
   FitSpec fit;
+  WeatherSpec weather;
   std::shared_ptr<const Node> document;  // as used: the file plus every --set; names files by absolute paths
   std::string file;                      // what messages call the case file
   std::string text;                      // the file as it was read ...
@@ -121,6 +123,10 @@ Case read_case(const std::string& path, const std::vector<Override>& overrides =
 /// The same from text; `name` stands for the file in messages, `directory` for its folder.
 Case read_case_text(const std::string& text, const std::string& name, const std::string& directory,
                     const std::vector<Override>& overrides = {});
+
+/// Settings of `stillhook weather` without a case: defaults with `overrides` on top, all of them of the section weather.
+/// File names start at `directory`. Throws CaseError.
+WeatherSpec read_weather_settings(const std::string& directory, const std::vector<Override>& overrides);
 
 /// The document as used, as TOML text that can be read from any folder.
 std::string resolved_text(const Case& c);

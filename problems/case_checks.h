@@ -29,6 +29,9 @@ void check_varied_moves(const Case& c, const Node& root, Findings& findings);
 /// Parameters and records of the fit.
 void check_fit(const Case& c, const Node& root, Findings& findings);
 
+/// Hours of daylight, phases and what stands beside them.
+void check_weather(const WeatherSpec& weather, const Node& root, Findings& findings);
+
 /// A key that a search or a fit changes, and the entry that asks for it.
 struct VariedKey {
   std::string entry, key;

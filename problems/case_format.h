@@ -31,5 +31,6 @@ const Table& limit_table();
 const Table& plan_table();
 const Table& tune_table();
 const Table& fit_table();
+const Table& weather_table();
 
 }  // namespace stillhook

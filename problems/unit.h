@@ -21,6 +21,8 @@ inline const Unit share{"share", "", 1.0};
 inline const Unit m{"m", "m", 1.0};
 inline const Unit m2{"m2", "m2", 1.0};
 inline const Unit s{"s", "s", 1.0};
+inline const Unit h{"h", "h", 3600.0};
+inline const Unit day{"days", "days", 86400.0};
 inline const Unit deg{"deg", "deg", kRadPerDeg};
 inline const Unit t{"t", "t", 1e3};
 inline const Unit t_m2{"t_m2", "t m2", 1e3};

@@ -36,13 +36,24 @@ std::vector<std::pair<std::string, std::string>> named_variables(const NetcdfFil
 }
 
 std::size_t length_of_variable(const NetcdfFile& file, int id, const std::string& name, const std::string& path) {
-  int rank = 0, dimension = 0;
+  int rank = 0;
   file.check(nc_inq_varndims(file.id(), id, &rank), name);
-  if (rank != 1) throw CaseError(fmt::format("{}: variable \"{}\" must have one dimension, has {}", path, name, rank));
-  file.check(nc_inq_vardimid(file.id(), id, &dimension), name);
-  std::size_t length = 0;
-  file.check(nc_inq_dimlen(file.id(), dimension, &length), name);
-  return length;
+  std::vector<int> dimensions(static_cast<std::size_t>(rank));
+  file.check(nc_inq_vardimid(file.id(), id, dimensions.data()), name);
+  // Dimensions of length 1, as of the one place of a hindcast, say nothing.
+  std::size_t longest = 1;
+  int long_ones = 0;
+  for (const int dimension : dimensions) {
+    std::size_t length = 0;
+    file.check(nc_inq_dimlen(file.id(), dimension, &length), name);
+    if (length == 1) continue;
+    ++long_ones;
+    longest = length;
+  }
+  if (long_ones > 1 || rank == 0)
+    throw CaseError(fmt::format("{}: variable \"{}\" must have one dimension{}, has {}", path, name,
+                                rank > 1 ? " longer than 1" : "", rank > 1 ? long_ones : rank));
+  return longest;
 }
 
 /// Numbers of an attribute; empty if there is none, or a text.
@@ -183,7 +194,47 @@ MeasuredTable from_bytes(std::string_view bytes, const std::string& path, const 
   return table;
 }
 
+void put_text(std::string& bytes, const std::string& text) {
+  put(bytes, text.size());
+  bytes += text;
+}
+
+std::string take_text(std::string_view& bytes) {
+  const auto length = take<std::size_t>(bytes);
+  const std::string text(bytes.substr(0, length));
+  bytes.remove_prefix(length);
+  return text;
+}
+
+std::string variables_as_bytes(const std::string& path) {
+  const NetcdfFile file(path, NetcdfFile::Mode::read, path);
+  std::string bytes;
+  for (const auto& [asked, name] : named_variables(file)) {
+    const int id = file.find(name);
+    put_text(bytes, asked);
+    put_text(bytes, text_of(file, id, "units"));
+    put_text(bytes, text_of(file, id, "standard_name"));
+  }
+  return bytes;
+}
+
 }  // namespace
+
+std::vector<MeasuredVariable> variables_of_netcdf(const std::string& path) {
+  try {
+    const std::string bytes = read_in_child(path, [&] { return variables_as_bytes(path); });
+    std::vector<MeasuredVariable> variables;
+    for (std::string_view rest = bytes; !rest.empty();) {
+      MeasuredVariable& v = variables.emplace_back();
+      v.name = take_text(rest);
+      v.units = take_text(rest);
+      v.standard_name = take_text(rest);
+    }
+    return variables;
+  } catch (const FileError& error) {
+    throw CaseError(error.what());
+  }
+}
 
 MeasuredTable read_measured_netcdf(const std::string& path, const std::vector<std::string>& names) {
   try {

@@ -9,4 +9,10 @@ namespace stillhook {
 /// Throws CaseError that names file and variable.
 MeasuredTable read_measured_netcdf(const std::string& path, const std::vector<std::string>& names);
 
+/// What a file has under which name. Throws CaseError.
+struct MeasuredVariable {
+  std::string name, units, standard_name;  // the latter two empty where the file does not say
+};
+std::vector<MeasuredVariable> variables_of_netcdf(const std::string& path);
+
 }  // namespace stillhook

@@ -16,15 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_netcdf(const std::string& path) {
+}  // namespace
+
+bool is_netcdf_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::array<char, 4> magic{};
   in.read(magic.data(), magic.size());
   const std::string_view start(magic.data(), magic.size());
   return start.substr(0, 3) == "CDF" || start.substr(1) == "HDF";
 }
-
-}  // namespace
 
 std::string MeasuredTable::place(std::size_t row) const { return fmt::format("{}:{}", file, lines[row]); }
 
@@ -50,7 +50,7 @@ std::string fault_of_measured_path(const std::string& path) {
 MeasuredTable read_measured_table(const std::string& path, const std::vector<std::string>& names) {
   if (const std::string fault = fault_of_measured_path(path); !fault.empty())
     throw CaseError(path + ": cannot be read: " + fault);
-  return is_netcdf(path) ? read_measured_netcdf(path, names) : read_measured_csv(path, names);
+  return is_netcdf_file(path) ? read_measured_netcdf(path, names) : read_measured_csv(path, names);
 }
 
 }  // namespace stillhook

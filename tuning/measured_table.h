@@ -24,6 +24,9 @@ struct MeasuredTable {
 /// another format), a column that it does not have (with the nearest) or has twice, a cell that is no number.
 MeasuredTable read_measured_table(const std::string& path, const std::vector<std::string>& names);
 
+/// True if a file begins as NetCDF does.
+bool is_netcdf_file(const std::string& path);
+
 /// Why a measured run cannot be read from a path, as the end of a sentence; empty if it is a file.
 std::string fault_of_measured_path(const std::string& path);
 

@@ -19,7 +19,7 @@ void describe_operand(CommandOption& option) {
     option.operand = Operand::case_file;
   else if (name == "RUN_DIR" || name == "DIR")
     option.operand = Operand::folder;
-  else if (name == "FILE")
+  else if (name == "FILE" || name == "LIMITS")
     option.operand = Operand::file;
   else if (name.find('|') != std::string::npos)
     option.operand = Operand::choice, option.choices = split(name, '|');

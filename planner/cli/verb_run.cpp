@@ -20,9 +20,15 @@ double VerbRun::wall() const {
 }
 
 const RunFolder& VerbRun::open(const Case& c, std::optional<RunFolder::Mode> mode) {
-  folder_.emplace(options_.out.empty() ? default_folder(c, verb_) : options_.out,
+  folder_.emplace(options_.out.empty() ? default_folder(c.name, verb_) : options_.out,
                   mode.value_or(options_.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh));
   statement_ = statement_of(options_.input);
+  return *folder_;
+}
+
+const RunFolder& VerbRun::open_named(const std::string& name) {
+  folder_.emplace(options_.out.empty() ? default_folder(name, verb_) : options_.out,
+                  options_.force ? RunFolder::Mode::replace : RunFolder::Mode::fresh);
   return *folder_;
 }
 

@@ -30,6 +30,8 @@ class VerbRun {
 
   /// Opens the folder, by default as --force says.
   const RunFolder& open(const Case& c, std::optional<RunFolder::Mode> mode = {});
+  /// Opens the folder of a run that has no case, by default runs/<name>-<verb>.
+  const RunFolder& open_named(const std::string& name);
   const RunFolder& folder() const { return *folder_; }
   DocumentControl control(const Case& c) const;
   /// Writes a file of the folder whole or not at all; a failure is told as the user's to mend.

@@ -15,6 +15,7 @@ std::unique_ptr<Verb> simulate_verb();
 std::unique_ptr<Verb> plan_verb();
 std::unique_ptr<Verb> tune_verb();
 std::unique_ptr<Verb> fit_verb();
+std::unique_ptr<Verb> weather_verb();
 std::unique_ptr<Verb> report_verb();
 std::unique_ptr<Verb> export_verb();
 std::unique_ptr<Verb> schema_verb();

@@ -5,10 +5,14 @@
 #include <fstream>
 #include <iterator>
 
+#include "planner/weather/limit_file.h"
+#include "planner/weather/record_file.h"
+#include "planner/weather/scatter_file.h"
 #include "problems/case.h"
 #include "problems/search/store.h"
 #include "results/archive.h"
 #include "results/files.h"
+#include "results/netcdf_file.h"
 #include "sim/hull/coefficients/database.h"
 #include "sim/hull/mesh/mesh_file.h"
 #include "sim/specification.h"
@@ -64,6 +68,33 @@ std::string read_measured(const std::string& path) {
 
 std::string read_measured_history(const std::string& path) {
   return refusal_of<CaseError>([&] { read_measured_table(path, {"time", "load.x"}); });
+}
+
+std::string read_limits(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_limit_file(path); });
+}
+
+std::string read_weather(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_record_file(path, {}); });
+}
+
+std::string read_scatter(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_scatter_file(path); });
+}
+
+std::string read_alpha(const std::string& path) {
+  return refusal_of<CaseError>([&] { read_alpha_file(path); });
+}
+
+std::string written_weather(const std::string& folder) {
+  const std::string path = folder + "/seed-weather.nc";
+  NetcdfFile file(path, NetcdfFile::Mode::create, path);
+  const int time = file.define_dimension("time", 3), place = file.define_dimension("latitude", 1);
+  file.put(file.define("time", NC_DOUBLE, {time}, "time", "hours since 1900-01-01 00:00:00.0"),
+           std::vector<double>{1043136.0, 1043139.0, 1043142.0});
+  file.put(file.define("swh", NC_DOUBLE, {time, place}, "height", "m"), std::vector<double>{1.0, 2.0, 1.5});
+  file.close();
+  return content_of(path);
 }
 
 std::string read_history(const std::string& path) {
@@ -184,6 +215,11 @@ std::vector<Reader> readers(const std::string& folder) {
       {"bemio", "set.h5", {content_of(folder + "/seed.h5")}, read_coefficients, case_with_coefficients("set.h5")},
       {"measured-csv", "record.csv", {}, read_measured},
       {"measured-netcdf", "record.nc", {written_history(folder)}, read_measured_history},
+      {"weather-limits", "limits.csv", {content_of(kSource + "/problems/weather/limits.csv")}, read_limits},
+      {"weather-record", "record.csv", {content_of(kSource + "/tests/truth/weather/seven_days.csv")}, read_weather},
+      {"weather-netcdf", "record.nc", {written_weather(folder)}, read_weather},
+      {"weather-scatter", "scatter.csv", {content_of(kSource + "/tests/truth/weather/scatter_wide.csv")}, read_scatter},
+      {"weather-alpha", "alpha.csv", {content_of(kSource + "/problems/weather/alpha.csv")}, read_alpha},
       {"history", "history.nc", {written_history(folder)}, read_history},
       {"store", "evaluations.sqlite", {written_store(folder)}, read_store},
   };

@@ -8,17 +8,6 @@
 namespace stillhook {
 namespace {
 
-TEST_CASE("The bound of a broken share is Clopper and Pearson's", "[certify]") {
-  // None of n broken: 1 - 0.05^(1/n), in closed form.
-  CHECK(broken_share_bound(0, 20) == Approx(1.0 - std::pow(0.05, 1.0 / 20.0)).epsilon(1e-9));
-  CHECK(broken_share_bound(0, 59) < 0.05);  // the well-known 59 runs for 95 % / 95 % (Wilks 1941)
-  CHECK(broken_share_bound(0, 58) > 0.05);
-  // One of 20: the 95 % quantile of Beta(2, 19), where P(X <= 1) = (1 - p)^20 + 20 p (1 - p)^19 is 0.05.
-  const double p = broken_share_bound(1, 20);
-  CHECK(std::pow(1.0 - p, 20) + 20.0 * p * std::pow(1.0 - p, 19) == Approx(0.05).epsilon(1e-9));
-  CHECK(broken_share_bound(20, 20) == 1.0);
-}
-
 TEST_CASE("A summary knows quantile, worst and the spread of its mean", "[certify]") {
   std::vector<double> values;
   for (int i = 0; i <= 100; ++i) values.push_back(i);

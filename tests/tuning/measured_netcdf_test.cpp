@@ -129,7 +129,7 @@ TEST_CASE("variables that are no column are refused", "[netcdf]") {
     REQUIRE(nc_def_var(file.id(), "letters", NC_CHAR, 1, both, &variable) == NC_NOERR);
     REQUIRE(nc_def_var(file.id(), "scalar", NC_DOUBLE, 0, nullptr, &variable) == NC_NOERR);
   }
-  CHECK_THAT(fault_of(path, {"t", "matrix"}), Contains("variable \"matrix\" must have one dimension, has 2"));
+  CHECK_THAT(fault_of(path, {"t", "matrix"}), Contains("variable \"matrix\" must have one dimension longer than 1, has 2"));
   CHECK_THAT(fault_of(path, {"t", "scalar"}), Contains("variable \"scalar\" must have one dimension, has 0"));
   CHECK_THAT(fault_of(path, {"t", "short_one"}), Contains("\"short_one\" has 2 values, \"t\" 3"));
   CHECK_THAT(fault_of(path, {"t", "letters"}), Contains("shapes.nc: variable letters"));

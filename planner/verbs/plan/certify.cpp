@@ -4,54 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
-#include <tuple>
 
 #include "planner/verbs/plan/plan_results.h"
 #include "problems/scenarios.h"
+#include "results/statistics/binomial.h"
+#include "results/statistics/sample.h"
 #include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
 
-constexpr int kResamples = 2000;
-constexpr double kConfidence = 0.95;
-
-double quantile_of(std::vector<double> sorted, double q) {
-  if (sorted.empty()) return kNaN;
-  std::sort(sorted.begin(), sorted.end());
-  const double place = q * static_cast<double>(sorted.size() - 1);
-  const std::size_t below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return values.empty() ? kNaN : sum / static_cast<double>(values.size());
-}
-
-/// 90 % interval of a statistic by resampling with replacement.
+/// 90 % interval of a statistic of the values by resampling.
 template <class F>
-std::pair<double, double> bootstrap(const std::vector<double>& values, F statistic) {
-  std::mt19937_64 random(20180401);
-  std::vector<double> results, sample(values.size());
-  for (int k = 0; k < kResamples && !values.empty(); ++k) {
-    // Modulo by hand: the standard's distributions differ between libraries.
-    for (double& v : sample) v = values[random() % values.size()];
-    results.push_back(statistic(sample));
-  }
-  return {quantile_of(results, 0.05), quantile_of(results, 0.95)};
-}
-
-/// P(X <= k) for X binomial.
-double binomial_tail(int k, int n, double p) {
-  double sum = 0.0;
-  for (int i = 0; i <= k; ++i)
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) +
-                    (n - i) * std::log1p(-p));
-  return sum;
+Interval bootstrap(const std::vector<double>& values, F statistic) {
+  std::vector<double> sample(values.size());
+  return bootstrap_interval(values.size(), [&](const std::vector<std::size_t>& drawn) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) sample[i] = values[drawn[i]];
+    return statistic(sample);
+  });
 }
 
 struct Runs {
@@ -114,20 +84,13 @@ SampleSummary summarised(const std::vector<double>& values, bool larger_is_worse
   const double q = larger_is_worse ? 0.9 : 0.1;
   s.mean = mean_of(known);
   s.quantile = quantile_of(known, q);
-  std::tie(s.mean_low, s.mean_high) = bootstrap(known, mean_of);
-  std::tie(s.quantile_low, s.quantile_high) =
-      bootstrap(known, [q](const std::vector<double>& v) { return quantile_of(v, q); });
+  const Interval mean = bootstrap(known, mean_of);
+  const Interval quantile = bootstrap(known, [q](const std::vector<double>& v) { return quantile_of(v, q); });
+  s.mean_low = mean.low;
+  s.mean_high = mean.high;
+  s.quantile_low = quantile.low;
+  s.quantile_high = quantile.high;
   return s;
-}
-
-double broken_share_bound(int broken, int runs) {
-  if (broken >= runs) return 1.0;
-  double low = static_cast<double>(broken) / runs, high = 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double p = 0.5 * (low + high);
-    (binomial_tail(broken, runs, p) > 1.0 - kConfidence ? low : high) = p;
-  }
-  return high;
 }
 
 Certificate certify(const Evaluator& evaluator, const Eigen::VectorXd& x, const std::atomic<bool>* stop) {

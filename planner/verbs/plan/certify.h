@@ -22,9 +22,6 @@ struct SampleSummary {
 /// Summary of values; NaN values are left out. `larger_is_worse` decides on quantile (90 % or 10 %) and worst.
 SampleSummary summarised(const std::vector<double>& values, bool larger_is_worse = true);
 
-/// Upper 95 % bound of a probability after `broken` of `runs`; 1 for no runs.
-double broken_share_bound(int broken, int runs);
-
 struct Certificate {
   struct OfLimit {
     std::string metric, unit;
