@@ -26,6 +26,7 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
     }
   for (const auto& element : system.elements) {
     element_offset_.push_back(static_cast<int>(channels_.size()));
+    samples_only_.push_back(element->name().ends_with(".hydrostatics"));
     for (Channel& c : element->channels()) channels_.push_back(std::move(c));
   }
   element_offset_.push_back(static_cast<int>(channels_.size()));
@@ -113,16 +114,17 @@ void ChannelBoard::measure(Source source, int index, SystemState& state, SystemW
   }
 }
 
-void ChannelBoard::measure(SystemState& state, SystemWorkspace& work, int phase) {
+void ChannelBoard::measure(SystemState& state, SystemWorkspace& work, int phase, bool sample) {
   const MultibodySystem& system = model_.system();
   const auto all = [&](Source source, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) measure(source, static_cast<int>(i), state, work);
   };
   all(Source::body, system.bodies.size());
-  all(Source::element, system.elements.size());
+  for (std::size_t i = 0; i < system.elements.size(); ++i)
+    if (sample || !samples_only_[i]) measure(Source::element, static_cast<int>(i), state, work);
   all(Source::drive, state.drive.size());
   all(Source::joint, system.joints.size());
-  all(Source::rest, 1);
+  if (sample) measure(Source::rest, 0, state, work);
   values_[rest_offset_ + 1] = phase;
 }
 
