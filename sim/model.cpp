@@ -47,7 +47,7 @@ std::map<std::string, double> channel_values(const Model& model, const SystemSta
   VectorX unused;
   model.system().forces(copy, 0.0, work, unused);  // some elements measure from what they last computed
   ChannelBoard board(model);
-  board.measure(copy, work, copy.phase);
+  board.measure(copy, work, copy.phase, true);
   std::map<std::string, double> values;
   for (std::size_t i = 0; i < board.channels().size(); ++i) values[board.channels()[i].name] = board.values()[i];
   return values;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "sim/drive_unit.h"
@@ -26,7 +27,9 @@ ChannelBoard::ChannelBoard(const Model& model) : model_(model) {
     }
   for (const auto& element : system.elements) {
     element_offset_.push_back(static_cast<int>(channels_.size()));
-    for (Channel& c : element->channels()) channels_.push_back(std::move(c));
+    std::vector<Channel> own = element->channels();
+    samples_only_.push_back(!own.empty() && std::ranges::all_of(own, &Channel::samples_only));
+    std::ranges::move(own, std::back_inserter(channels_));
   }
   element_offset_.push_back(static_cast<int>(channels_.size()));
   drive_offset_ = static_cast<int>(channels_.size());
@@ -113,16 +116,17 @@ void ChannelBoard::measure(Source source, int index, SystemState& state, SystemW
   }
 }
 
-void ChannelBoard::measure(SystemState& state, SystemWorkspace& work, int phase) {
+void ChannelBoard::measure(SystemState& state, SystemWorkspace& work, int phase, bool sample) {
   const MultibodySystem& system = model_.system();
   const auto all = [&](Source source, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) measure(source, static_cast<int>(i), state, work);
   };
   all(Source::body, system.bodies.size());
-  all(Source::element, system.elements.size());
+  for (std::size_t i = 0; i < system.elements.size(); ++i)
+    if (sample || !samples_only_[i]) measure(Source::element, static_cast<int>(i), state, work);
   all(Source::drive, state.drive.size());
   all(Source::joint, system.joints.size());
-  all(Source::rest, 1);
+  if (sample) measure(Source::rest, 0, state, work);
   values_[rest_offset_ + 1] = phase;
 }
 

@@ -12,8 +12,9 @@ class ChannelBoard {
  public:
   explicit ChannelBoard(const Model& model);
   const std::vector<Channel>& channels() const { return channels_; }
-  /// Fills values() from a state whose elements' memories belong to it.
-  void measure(SystemState& state, SystemWorkspace& work, int phase);
+  /// Fills values() from a state whose elements' memories belong to it. Between samples the channels that are recorded with
+  /// them alone keep their last values.
+  void measure(SystemState& state, SystemWorkspace& work, int phase, bool sample);
   /// Fills the channels of one source alone.
   enum class Source { body, element, drive, joint, rest };
   /// Along `branches` of the element's law, if given.
@@ -34,6 +35,7 @@ class ChannelBoard {
   std::vector<Channel> channels_;
   std::vector<double> values_;
   std::vector<int> element_offset_;
+  std::vector<bool> samples_only_;  // by element
   int drive_offset_ = 0, joint_offset_ = 0, rest_offset_ = 0;
 };
 

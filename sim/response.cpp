@@ -64,14 +64,29 @@ MatrixX damping_of(const HydrodynamicCoefficients& set, double w) {
   return MatrixX::Zero(set.modes(), set.modes());
 }
 
+/// The hull (mesh relative to the reference point, in B) in the water as it floats at this pose, about the reference
+/// point and in the heading frame: its draft, heel and trim may differ from those that its coefficients were computed for.
+std::optional<LinearFroudeKrylov> as_it_floats(Mesh mesh, const Pose& X_WB, const Vector3& reference, const SeaSpec& sea,
+                                               double depth) {
+  const Matrix3 R_HB = heading_rotation(X_WB.R).transpose() * X_WB.R;
+  const double waterline = -(X_WB.p + X_WB.R * reference).z();
+  bool wet = false;
+  for (Vector3& vertex : mesh.vertices) {
+    vertex = R_HB * vertex;
+    wet = wet || vertex.z() < waterline;
+  }
+  if (!wet) return std::nullopt;
+  return LinearFroudeKrylov(mesh, waterline, sea.density, sea.gravity, depth);
+}
+
 }  // namespace
 
 /// Hulls of one set, or a lone hull.
 struct LinearResponse::Group {
   struct Hull {
     HeadingFrame frame;                // cog from the reference point
-    LinearFroudeKrylov froude_krylov;  // about the reference point
-    Eigen::Vector2d reference;         // m, in W
+    std::optional<LinearFroudeKrylov> froude_krylov;  // about the reference point, as it floats; none out of the water
+    Eigen::Vector2d reference;                        // m, in W
     double diffraction_factor = 1.0;
   };
   std::vector<Hull> hulls;
@@ -166,16 +181,13 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
       const BodySpec& body = spec.bodies[k];
       bodies.push_back(&body);
       const Pose X_WB = pose_of(state_.body[k], system.bodies[k]);
-      const double height = model.coefficients(k).reference_height;
+      const Vector3 reference(0.0, 0.0, model.coefficients(k).reference_height);
       Mesh mesh = build_hull_mesh(body.hull);
-      const double waterline = group.set ? group.set->waterline : waterline_through_middle(mesh, X_WB.p, X_WB.R);
-      for (Vector3& vertex : mesh.vertices) vertex.z() -= height;
+      for (Vector3& vertex : mesh.vertices) vertex -= reference;
       const double yaw = roll_pitch_yaw(X_WB.R).yaw;
-      const double density = group.set ? group.set->density : spec.sea.density;
-      group.hulls.push_back({HeadingFrame(k, body.cog - Vector3(0.0, 0.0, height), yaw),
-                             LinearFroudeKrylov(mesh, waterline, density, gravity_, depth_), X_WB.p.head<2>(),
-                             body.hydrodynamics.diffraction_factor});
-      incident.emplace_back(mesh, waterline, density, gravity_);  // of deep water, as the set
+      group.hulls.push_back({HeadingFrame(k, body.cog - reference, yaw), as_it_floats(mesh, X_WB, reference, spec.sea, depth_),
+                             X_WB.p.head<2>(), body.hydrodynamics.diffraction_factor});
+      if (group.set) incident.emplace_back(mesh, group.set->waterline, group.set->density, gravity_);  // of deep water, as the set
       headings.push_back(yaw);
     }
     group.added_mass_factor = mode_factors(bodies, &HydrodynamicsSpec::added_mass_factor);
@@ -262,8 +274,8 @@ Eigen::VectorXcd LinearResponse::excitation(double frequency, double heading) co
                                 heading - group.heading());
     for (std::size_t i = 0; i < group.hulls.size(); ++i) {
       const Group::Hull& hull = group.hulls[i];
-      const ResponseAmplitude::Vector6c X =
-          hull.diffraction_factor * X_D.segment<6>(6 * i) + hull.froude_krylov.excitation(frequency, heading - hull.frame.heading);
+      ResponseAmplitude::Vector6c X = hull.diffraction_factor * X_D.segment<6>(6 * i);
+      if (hull.froude_krylov) X += hull.froude_krylov->excitation(frequency, heading - hull.frame.heading);
       Q.segment<6>(6 * hull.frame.body) +=
           hull.frame.transform().transpose().cast<Complex>() * X * std::polar(1.0, k * direction.dot(hull.reference));
     }

@@ -127,7 +127,7 @@ class Run {
   }
 
   void note(double h, bool sample) {
-    board_.measure(state_, stepper_.workspace(), phase());
+    board_.measure(state_, stepper_.workspace(), phase(), sample);
     if (!operation_over(state_.t - h))
       recorder_.add(state_.t, h, phase(), sample);
     else if (sample)

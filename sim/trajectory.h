@@ -33,7 +33,8 @@ struct ContactEvent {
   std::string phase;
 };
 
-/// Largest and smallest value of a channel within a phase, over every step (not only the recorded samples).
+/// Largest and smallest value of a channel within a phase, over every step (not only the recorded samples), unless the
+/// channel is Channel::samples_only.
 struct Extreme {
   double min = 0.0, max = 0.0;
   double t_min = 0.0, t_max = 0.0;  // s

@@ -92,7 +92,9 @@ class Hydrostatics final : public ForceElement {
   double potential_energy(const Instant& now, Memory m) const override;
 
   std::vector<Channel> channels() const override {
-    return channels_of(body_name_, hull_channels::all);
+    std::vector<Channel> channels = channels_of(body_name_, hull_channels::all);
+    for (Channel& channel : channels) channel.samples_only = true;
+    return channels;
   }
 
   void measure(const Instant& now, Memory m, std::span<double> out) const override {

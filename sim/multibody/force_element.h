@@ -107,6 +107,9 @@ struct Channel {
   std::string name;  // "<element>.<quantity>", e.g. "hoist_port.tension"
   std::string unit;  // SI: "N", "m", "rad", "m/s", "1"
   std::string description;
+  /// True for what costs as much to measure as a step and changes no faster than the samples follow: it is measured with
+  /// the samples alone, and its extremes are those of the samples. The element then has no other channels.
+  bool samples_only = false;
 };
 
 /// A force element adds, never sets, and accounts for its energy. It is immutable after construction; what changes

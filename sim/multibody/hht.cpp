@@ -53,6 +53,7 @@ HhtStepper::HhtStepper(const MultibodySystem& system, const HhtOptions& options)
     least_lambda_ = std::max(least_lambda_, kStandardGravity * system.bodies[joint.on_child.body].mass);
   const int n = system.coordinates(), m = system.constraints();
   F0_ = F1_ = a0_ = jerk_ = VectorX::Zero(n);
+  for (Differences& d : differences_) d = {VectorX::Zero(n), VectorX::Zero(m)};
   C_ = VectorX::Zero(m);
   r_ = delta_ = VectorX::Zero(n + m);
   C_q_ = MatrixX::Zero(m, n);
@@ -87,6 +88,7 @@ void HhtStepper::start(SystemState& state) {
     solve_motion(near, glance < 0.0 ? before : after, lambda, F);
   }
   jerk_ = (after - before) / (2.0 * kGlance);
+  known_differences_ = prediction_order_ = 0;
   last_h_ = 0.0;
   factorised_h_ = 0.0;
   started_ = true;
@@ -97,6 +99,39 @@ void HhtStepper::predict(const SystemState& from, double h) {
   next_.phase = from.phase;
   next_.acceleration = a0_;
   next_.lambda = from.lambda;
+  if (h != differences_h_) return;
+  const auto& [last, before] = differences_;
+  if (prediction_order_ >= 1) {
+    next_.acceleration += last.acceleration;
+    next_.lambda += last.lambda;
+  }
+  if (prediction_order_ >= 2) {
+    next_.acceleration += last.acceleration - before.acceleration;
+    next_.lambda += last.lambda - before.lambda;
+  }
+}
+
+// After a step from `from` to next_: the order that would have predicted this step best serves for the next.
+void HhtStepper::choose_prediction(const SystemState& from, double h) {
+  if (h != differences_h_) known_differences_ = 0;
+  differences_h_ = h;
+  auto& [last, before] = differences_;
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](int order, double error) {
+    if (error < least) least = error, prediction_order_ = order;
+  };
+  // What no order, the first and the second would have been off by.
+  delta_.head(from.acceleration.size()) = next_.acceleration - from.acceleration;
+  auto step = delta_.head(from.acceleration.size());
+  consider(0, step.cwiseAbs().maxCoeff());
+  if (known_differences_ >= 1) consider(1, (step - last.acceleration).cwiseAbs().maxCoeff());
+  if (known_differences_ >= 2)
+    consider(2, (step - 2.0 * last.acceleration + before.acceleration).cwiseAbs().maxCoeff());
+  std::swap(last, before);
+  last.acceleration = step;
+  last.lambda = next_.lambda - from.lambda;
+  known_differences_ = std::min(known_differences_ + 1, 2);
+  prediction_order_ = std::min(prediction_order_, known_differences_);
 }
 
 void HhtStepper::apply(const SystemState& from, double h) {
@@ -200,6 +235,7 @@ void HhtStepper::follow_mass(SystemState& state) {
     state.acceleration = mass->ldlt().solve(*mass_ * state.acceleration).eval();
     jerk_.setZero();
     factorised_h_ = 0.0;
+    known_differences_ = prediction_order_ = 0;
   }
   mass_ = mass;
 }
@@ -229,6 +265,7 @@ bool HhtStepper::step(SystemState& state, double h, std::span<const DriveState> 
   F0_.noalias() += (1.0 / (1.0 + options_.alpha)) * (*mass_ * next_.acceleration);
   jerk_ = (next_.acceleration - a0_) / h;
   last_h_ = h;
+  choose_prediction(state, h);
   system_.end_step(next_, h, work_);
   std::swap(state.body, next_.body);
   std::swap(state.acceleration, next_.acceleration);

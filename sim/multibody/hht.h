@@ -14,6 +14,8 @@
 // share of the multipliers, because velocities settle h^2 away from C_q u = 0) dies out by (1 + al)/(1 - al) a step.
 #pragma once
 
+#include <array>
+
 #include "sim/multibody/system.h"
 
 namespace stillhook {
@@ -52,6 +54,7 @@ class HhtStepper {
   void solve_motion(SystemState& state, VectorX& acceleration, VectorX& lambda, VectorX& F);
   void follow_mass(SystemState& state);
   void predict(const SystemState& from, double h);
+  void choose_prediction(const SystemState& from, double h);
   void apply(const SystemState& from, double h);
   bool residual(double h);
   void factorise(double h);
@@ -74,6 +77,14 @@ class HhtStepper {
   double factorised_h_ = 0.0, rate_ = 1.0;
   double last_h_ = 0.0;  // the step that state.acceleration comes from; 0 after start()
   double reach_ = 1.0;   // largest coordinate of a body, m
+  // Differences of accelerations and multipliers over the last step and the one before, and how many of them the
+  // prediction of the next step takes: as many as would have predicted the last one best.
+  struct Differences {
+    VectorX acceleration, lambda;
+  };
+  std::array<Differences, 2> differences_;
+  int known_differences_ = 0, prediction_order_ = 0;
+  double differences_h_ = 0.0;  // s, the step that they belong to
   bool started_ = false;
   int failed_body_ = -1;
   long residuals_ = 0, factorisations_ = 0;

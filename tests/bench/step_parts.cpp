@@ -70,7 +70,7 @@ class OpenRun {
     }
   }
   void note() {
-    board.measure(state, stepper.workspace(), state.phase);
+    board.measure(state, stepper.workspace(), state.phase, true);
     recorder.add(state.t, h_, state.phase, false);
   }
 
@@ -132,7 +132,7 @@ StepCosts measure_step(const Model& model, const Operation& operation, double mi
       element.measure(state.instant(), m, {values.data(), channels});
     });
   }
-  const double all_channels = cost_of([&] { run.board.measure(state, work, state.phase); });
+  const double all_channels = cost_of([&] { run.board.measure(state, work, state.phase, true); });
   double of_elements = 0.0;
   for (const auto& [name, cost] : parts)
     if (name.starts_with("channels: ")) of_elements += cost;

@@ -75,7 +75,9 @@ SeaStateSpec regular(double amplitude, double frequency, double heading) {
 }
 
 /// Response of a body's Bo per metre of wave, crest at its mean position, from a simulation.
-ResponseAmplitude::Vector6c simulated(Specification spec, double frequency, double heading, double duration) {
+/// The operation of `spec` first, then it waits in the waves; `from`: where it hangs by then.
+ResponseAmplitude::Vector6c simulated(Specification spec, double frequency, double heading, double duration,
+                                      const SystemState* from = nullptr) {
   constexpr double kAmplitude = 0.02;  // m: small enough for the linear theory
   spec.sea.states = {regular(kAmplitude, frequency, heading)};
   spec.sea.active = "swell";
@@ -83,14 +85,14 @@ ResponseAmplitude::Vector6c simulated(Specification spec, double frequency, doub
   PhaseSpec phase;
   phase.name = "waiting";
   phase.duration = duration;
-  spec.operation.phases = {phase};
+  spec.operation.phases.push_back(phase);
   spec.solver.hht_alpha = 0.0;
   spec.solver.time_step = 0.05;
   const Model model = build_model(spec);
   const Trajectory run = simulate(model, build_operation(model));
   REQUIRE(run.status == RunStatus::completed);
   const double period = 2.0 * std::numbers::pi / frequency;
-  const Pose X_WB = pose_of(model.initial_state().body[0], model.system().bodies[0]);
+  const Pose X_WB = pose_of((from ? *from : model.initial_state()).body[0], model.system().bodies[0]);
   const double k = wave_number(frequency, kGravity, spec.sea.wave_depth());
   const double lead = k * (X_WB.p.x() * std::cos(heading) + X_WB.p.y() * std::sin(heading));
   ResponseAmplitude::Vector6c W;
@@ -98,7 +100,7 @@ ResponseAmplitude::Vector6c simulated(Specification spec, double frequency, doub
   for (int i = 0; i < 6; ++i) {
     const int channel = run.find(spec.bodies[0].name + "." + channels[i]);
     REQUIRE(channel >= 0);
-    W[i] = oscillation(run.time, run.values[channel], duration - 6.0 * period, frequency) / kAmplitude;
+    W[i] = oscillation(run.time, run.values[channel], run.time.back() - 6.0 * period, frequency) / kAmplitude;
   }
   const double c = std::cos(kYaw), s = std::sin(kYaw);
   ResponseAmplitude::Vector6c result = W;
@@ -109,6 +111,27 @@ ResponseAmplitude::Vector6c simulated(Specification spec, double frequency, doub
 
 ResponseAmplitude::Vector6c of_Bo(const LinearResponse& linear, double frequency, double heading) {
   return linear.motion(linear.at(frequency, heading), 0, Vector3::Zero());
+}
+
+/// The reference crane's hull with the coefficients of its draft of 4 m.
+Specification crane_hull() {
+  Specification spec;
+  spec.name = "crane";
+  BodySpec body;
+  body.name = "crane";
+  body.mass = kDensity * 110.0 * 46.0 * 4.0;
+  body.cog = Vector3(0.0, 0.0, 2.0);
+  body.inertia = body.mass * Vector3(200.0, 1000.0, 1100.0).asDiagonal();
+  body.position = Vector3(30.0, 20.0, 0.0);
+  body.attitude.yaw = kYaw;
+  body.hull.shape = HullSpec::Shape::box;
+  body.hull.size = Vector3(110.0, 46.0, 7.5);
+  body.hull.centre = Vector3(0.0, 0.0, -0.25);
+  body.hydrodynamics.kind = HydrodynamicsSpec::Kind::table;
+  body.hydrodynamics.coefficient_file = STILLHOOK_SOURCE_DIR "/problems/hulls/crane_110x46x4.csv";
+  body.hydrodynamics.critical_fraction << 0.0, 0.0, 0.0, 0.1, 0.0, 0.0;
+  spec.bodies.push_back(body);
+  return spec;
 }
 
 }  // namespace
@@ -198,22 +221,7 @@ TEST_CASE("linear response and simulation agree in a small regular wave", "[resp
     }
   }
   SECTION("a coefficient set") {
-    Specification spec;
-    spec.name = "crane";
-    BodySpec body;
-    body.name = "crane";
-    body.mass = kDensity * 110.0 * 46.0 * 4.0;
-    body.cog = Vector3(0.0, 0.0, 2.0);
-    body.inertia = body.mass * Vector3(200.0, 1000.0, 1100.0).asDiagonal();
-    body.position = Vector3(30.0, 20.0, 0.0);
-    body.attitude.yaw = kYaw;
-    body.hull.shape = HullSpec::Shape::box;
-    body.hull.size = Vector3(110.0, 46.0, 7.5);
-    body.hull.centre = Vector3(0.0, 0.0, -0.25);
-    body.hydrodynamics.kind = HydrodynamicsSpec::Kind::table;
-    body.hydrodynamics.coefficient_file = STILLHOOK_SOURCE_DIR "/problems/hulls/crane_110x46x4.csv";
-    body.hydrodynamics.critical_fraction << 0.0, 0.0, 0.0, 0.1, 0.0, 0.0;
-    spec.bodies.push_back(body);
+    Specification spec = crane_hull();
     spec.sea.depth = depth;
     const Model model = build_model(spec);
     const LinearResponse linear(model);
@@ -227,6 +235,44 @@ TEST_CASE("linear response and simulation agree in a small regular wave", "[resp
       INFO("mode " << i << ": " << expected[i] << " and " << run[i]);
       CHECK(std::abs(run[i] - expected[i]) < 0.03 * std::abs(expected[i]));
     }
+  }
+}
+
+TEST_CASE("a hull that has been lifted out of its draft is excited as it floats now", "[response]") {
+  // A sky hook takes a quarter of the hull's weight: its draft goes from 4 to 3 m, the coefficients stay those of 4 m, in
+  // the run as here. With the wave pressure of the draft at the start surge and sway were 1.3 times those of the run.
+  Specification spec = crane_hull();
+  DriveSpec winch;
+  winch.name = "winch";
+  spec.drives.push_back(winch);
+  WireSpec wire;
+  wire.name = "sky_hook";
+  wire.from = "world";
+  wire.to = "crane";
+  wire.point_from = Vector3(30.0, 20.0, 200.0);
+  wire.axial_stiffness = 2.0e9;
+  wire.slack = 0.0;
+  wire.winch = "winch";
+  spec.wires.push_back(wire);
+  const double quarter = 0.25 * spec.bodies[0].mass * kGravity;
+  const double hauled = 1.0 + quarter / (wire.axial_stiffness / 200.0);  // m: the new draft and the stretch
+  PhaseSpec hoist;
+  hoist.name = "hoist";
+  MoveSpec move;
+  move.drive = "winch";
+  move.speed = 0.2;
+  move.travel = hauled;
+  hoist.moves = {move};
+  spec.operation.phases = {hoist};
+  const Model model = build_model(spec);
+  const Operation operation = build_operation(model);
+  const SystemState hung = operation.equilibria.back();
+  const LinearResponse linear(model, hung);
+  const double w = 0.628, heading = kYaw + std::numbers::pi / 4.0;
+  const ResponseAmplitude::Vector6c expected = of_Bo(linear, w, heading), run = simulated(spec, w, heading, 200.0, &hung);
+  for (int i = 0; i < 5; ++i) {
+    INFO("mode " << i << ": " << expected[i] << " and " << run[i]);
+    CHECK(std::abs(run[i] - expected[i]) < 0.03 * std::abs(expected[i]));
   }
 }
 
