@@ -56,7 +56,7 @@ std::vector<std::string> shallow_water_gaps(const SeaSpec& sea) {
   if (numbers.empty() || !(numbers.back().significant_height > 0.0)) return {};
   // Of several systems the longest feels the bottom first, though another may hold the energy.
   double period = 0.0;
-  for (const SeaStatistics& system : numbers) period = std::max(period, system.peak_period);
+  for (const SeaStatistics& system : numbers) period = std::max(period, system.long_period);
   const double omega = kTwoPi / period, h = sea.depth;
   const double deep = kTwoPi * sea.gravity / (omega * omega);
   if (!(h < 0.5 * deep)) return {};
