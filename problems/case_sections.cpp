@@ -31,6 +31,7 @@ std::vector<CaseSection> build_sections() {
       {"plan", false, true},  // but for its budget, see store_identity()
       {"tune", false, false},
       {"fit", false, false},
+      {"operability", false, false},
       {"weather", false, false},
       {"wind", true, true},
   };
