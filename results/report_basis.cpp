@@ -6,6 +6,7 @@
 
 #include "results/html.h"
 #include "results/report_parts.h"
+#include "results/sea_polar.h"
 
 namespace stillhook {
 namespace {
@@ -71,9 +72,15 @@ std::string basis_part(const ReportData& data) {
     all.push_back(&e);
     if (of_first_rank(data, e.key)) first.push_back(&e);
   }
-  std::string out =
-      values_table(first) +
-      fmt::format("<details><summary>All {} values of the case</summary>{}</details>", all.size(), values_table(all));
+  std::string out;
+  if (const std::string sea = draw_sea_polar(data.specification, data.north); !sea.empty())
+    out += "<figure>" + sea +
+           "<figcaption>The sea by the direction its waves come from and by their period, seen from above; the vessel "
+           "lies in the "
+           "middle. Shade: spectral density, on a scale of square roots. Long-crested waves are drawn ten degrees "
+           "wide, regular waves as dots.</figcaption></figure>";
+  out += values_table(first) + fmt::format("<details><summary>All {} values of the case</summary>{}</details>",
+                                           all.size(), values_table(all));
   if (!has_sources(all))
     out += "<p><small>The case file names no sources: a remark behind a value is shown beside it here.</small></p>";
   return out + "<p><small>Limits and their sources are under Limits.</small></p>";

@@ -182,6 +182,17 @@ double peak_of(const SeaStateSpec& s) {
   return std::ranges::max_element(s.parts, {}, &SeaStateSpec::amplitude)->frequency;
 }
 
+/// rad/s, below which a twentieth of the energy of what a file holds lies; infinite for other seas.
+double long_end_of(const SeaStateSpec& s, double m0) {
+  constexpr double kShare = 0.05;
+  if (s.type == SpecType::spectrum) return frequency_below(s, kShare);
+  double sum = 0.0;
+  if (s.type == SpecType::record)
+    for (const WaveComponent& c : record_components(s, kStandardGravity, std::numeric_limits<double>::infinity()))
+      if ((sum += 0.5 * c.amplitude * c.amplitude) >= kShare * m0) return c.frequency;
+  return std::numeric_limits<double>::infinity();
+}
+
 SeaStatistics statistics_of(const SeaStateSpec& s) {
   const SeaMoments m = moments_of(s);
   SeaStatistics result;
@@ -189,6 +200,7 @@ SeaStatistics statistics_of(const SeaStateSpec& s) {
   if (!(m.m0 > 0.0)) return result;
   result.significant_height = 4.0 * std::sqrt(m.m0);
   result.peak_period = kTwoPi / peak_of(s);
+  result.long_period = std::max(result.peak_period, kTwoPi / long_end_of(s, m.m0));
   result.mean_period = kTwoPi * m.m0 / m.m1;
   result.zero_crossing_period = kTwoPi * std::sqrt(m.m0 / m.m2);
   result.heading = std::arg(m.direction);

@@ -15,9 +15,11 @@ namespace stillhook {
 
 struct SeaStatistics {
   std::string name;
-  double significant_height = 0.0;    // m
-  double peak_period = 0.0;           // s
-  double mean_period = 0.0;           // s, T01
+  double significant_height = 0.0;  // m
+  double peak_period = 0.0;         // s
+  double long_period = 0.0;  // s, of the longest waves that matter: the peak's or, in a spectrum or record from a
+                             // file, where it is longer, the one beyond which a twentieth of the energy lies
+  double mean_period = 0.0;  // s, T01
   double zero_crossing_period = 0.0;  // s, Tz
   double heading = 0.0;               // rad, the mean direction travels towards it, in W
   double spread = 0.0;                // rad, circular

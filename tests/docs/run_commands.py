@@ -58,7 +58,8 @@ class Reader:
         (self.path / "build").mkdir()
         for link in (self.path / "bin" / "stillhook", self.path / "build" / "stillhook"):
             link.symlink_to(program)
-        (self.path / "problems").symlink_to(source / "problems")
+        for folder in ("problems", "docs"):
+            (self.path / folder).symlink_to(source / folder)
         self.environment = dict(os.environ, PATH=f"{self.path}/bin:{os.environ['PATH']}", NO_COLOR="1")
         if cache:
             self.environment["STILLHOOK_CACHE"] = str(cache)

@@ -10,6 +10,8 @@
 #include "planner/weather/scatter_file.h"
 #include "problems/case.h"
 #include "problems/search/store.h"
+#include "problems/spectra/elevation_file.h"
+#include "problems/spectra/sea_files.h"
 #include "results/archive.h"
 #include "results/files.h"
 #include "results/netcdf_file.h"
@@ -84,6 +86,38 @@ std::string read_scatter(const std::string& path) {
 
 std::string read_alpha(const std::string& path) {
   return refusal_of<CaseError>([&] { read_alpha_file(path); });
+}
+
+std::string read_spectrum(const std::string& path) {
+  SpectrumFileSpec spec;
+  spec.file = path;
+  return refusal_of<FileError>([&] { read_spectrum_file(spec, 1025.0, 9.80665); });
+}
+
+std::string read_elevation(const std::string& path) {
+  RecordFileSpec spec;
+  spec.file = path;
+  spec.column = "z_m";
+  return refusal_of<FileError>([&] { read_elevation_file(spec); });
+}
+
+/// Two times, three frequencies, eight directions as the wavespectra library stores them.
+std::string written_spectrum(const std::string& folder) {
+  const std::string path = folder + "/seed-spectrum.nc";
+  NetcdfFile file(path, NetcdfFile::Mode::create, path);
+  const int time = file.define_dimension("time", 2), f = file.define_dimension("freq", 3),
+            d = file.define_dimension("dir", 8);
+  const int times = file.define("time", NC_DOUBLE, {time}, "time", "hours since 2026-11-30 00:00:00");
+  const int of_f = file.define("freq", NC_DOUBLE, {f}, "frequency", "Hz");
+  const int of_d = file.define("dir", NC_DOUBLE, {d}, "direction", "degree");
+  const int density = file.define("efth", NC_DOUBLE, {time, f, d}, "energy", "m2 s degree-1");
+  file.attribute(of_d, "standard_name", "sea_surface_wave_from_direction");
+  file.put(times, std::vector<double>{0.0, 6.0});
+  file.put(of_f, std::vector<double>{0.08, 0.1, 0.12});
+  file.put(of_d, std::vector<double>{0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0});
+  file.put(density, std::vector<double>(48, 0.01));
+  file.close();
+  return content_of(path);
 }
 
 std::string written_weather(const std::string& folder) {
@@ -183,6 +217,14 @@ std::string case_with_mesh(const std::string& file) {
   return kCaseWithHull + "shape = \"mesh\"\nmesh_file = \"" + file + "\"\n" + kOperation;
 }
 
+std::string case_with_sea(const std::string& state) {
+  return "name = \"fuzz\"\n[sea]\nactive = \"read\"\n[[sea.states]]\nname = \"read\"\n" + state +
+         "\n[[bodies]]\nname = \"hull\"\nmass_t = 20746.0\ngyration_m = [14.0, 30.0, 30.0]\n[bodies.hull]\nshape = "
+         "\"box\"\nsize_m = "
+         "[110.0, 46.0, 8.0]\n" +
+         kOperation;
+}
+
 std::string case_with_coefficients(const std::string& file) {
   const std::string kind = file.ends_with(".csv") ? "table" : "database";
   return kCaseWithHull + "shape = \"box\"\nsize_m = [110.0, 46.0, 8.0]\n[bodies.hydrodynamics]\nkind = \"" + kind +
@@ -215,6 +257,22 @@ std::vector<Reader> readers(const std::string& folder) {
       {"bemio", "set.h5", {content_of(folder + "/seed.h5")}, read_coefficients, case_with_coefficients("set.h5")},
       {"measured-csv", "record.csv", {}, read_measured},
       {"measured-netcdf", "record.nc", {written_history(folder)}, read_measured_history},
+      {"spectrum-netcdf",
+       "spectrum.nc",
+       {written_spectrum(folder)},
+       read_spectrum,
+       case_with_sea("type = \"spectrum\"\nspectrum_file = \"spectrum.nc\"\nbearing_of_x_deg = 0.0")},
+      {"spectrum-era5", "spectrum.nc", {content_of(kSource + "/docs/examples/era5_like_spectrum.nc")}, read_spectrum},
+      {"spectrum-swan",
+       "spectrum.spc",
+       {},
+       read_spectrum,
+       case_with_sea("type = \"spectrum\"\nspectrum_file = \"spectrum.spc\"\nbearing_of_x_deg = 0.0")},
+      {"elevation",
+       "elevation.csv",
+       {},
+       read_elevation,
+       case_with_sea("type = \"record\"\nrecord_file = \"elevation.csv\"\ncolumn = \"z_m\"\nheading_deg = 0.0")},
       {"weather-limits", "limits.csv", {content_of(kSource + "/problems/weather/limits.csv")}, read_limits},
       {"weather-record", "record.csv", {content_of(kSource + "/tests/truth/weather/seven_days.csv")}, read_weather},
       {"weather-netcdf", "record.nc", {written_weather(folder)}, read_weather},

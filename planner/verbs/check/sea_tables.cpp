@@ -55,7 +55,8 @@ ReportTable parts_table(const Model& model, const SeaStateSpec& state) {
   ReportTable table;
   table.title = "Sea";
   table.note =
-      "Of the spectra. Towards: mean direction of travel, from +x, counter-clockwise. Spread: circular. Beyond: share "
+      "Of the spectra; H: height of a regular wave. Towards: mean direction of travel, from +x, counter-clockwise. "
+      "Spread: circular. Beyond: share "
       "of "
       "the energy in waves shorter than the hulls' coefficients know.";
   table.header = {"waves",      "Hs m",    "Tp s", "T01 s", "Tz s", "towards deg", "seen from the bow",
@@ -71,10 +72,11 @@ ReportTable parts_table(const Model& model, const SeaStateSpec& state) {
                                 roll_pitch_yaw(model.initial_state().body[static_cast<std::size_t>(vessel)].R_WB).yaw);
     double towards = s.heading / kDegree;
     if (towards < -1e-9) towards += 360.0;
-    table.rows.push_back({whole && all.size() > 1 ? "together" : s.name, cell(s.significant_height, 2),
-                          cell(s.peak_period, 1), cell(s.mean_period, 1), cell(s.zero_crossing_period, 1),
-                          cell(towards, 0), from, cell(s.spread / kDegree, 1),
-                          std::isinf(end) ? "-" : cell(share_beyond(of, sea, end), 1)});
+    const bool regular = of.type == SeaStateSpec::Type::regular;
+    const std::string height = regular ? "H " + cell(2.0 * of.amplitude, 2) : cell(s.significant_height, 2);
+    table.rows.push_back({whole && all.size() > 1 ? "together" : s.name, height, cell(s.peak_period, 1),
+                          cell(s.mean_period, 1), cell(s.zero_crossing_period, 1), cell(towards, 0), from,
+                          cell(s.spread / kDegree, 1), std::isinf(end) ? "-" : cell(share_beyond(of, sea, end), 1)});
   }
   return table;
 }
