@@ -202,7 +202,8 @@ const Table& panel_method_table() {
   static const Table table = [] {
     using S = PanelMethodSpec;
     TableOf<S> t("panel_method", "How coefficients of hulls are computed and what is accepted of them.");
-    t.number("lowest_rad_per_s", &S::lowest, unit::rad_per_s, between(0.05, 2.0), "Lowest frequency.");
+    t.number("lowest_rad_per_s", &S::lowest, unit::rad_per_s, between(0.05, 2.0), "Lowest frequency.")
+        .absent("0.2; 0.1 over a bed that its waves feel");
     t.number("highest_rad_per_s", &S::highest, unit::rad_per_s, between(0.3, 5.0), "Highest frequency.")
         .absent("2, up to 3 where a sea of the case has more than a tenth of its energy above, less for a hull whose "
                 "diagonal is more than 8.3 such waves");

@@ -202,12 +202,16 @@ const Table& sea_table() {
     t.number("ramp_s", &S::ramp, unit::s, not_negative(), "The waves grow smoothly from nothing over this time.");
     t.number("density_kg_per_m3", &S::density, unit::kg_per_m3, positive(), "Density of the water.");
     t.number("gravity_m_per_s2", &S::gravity, unit::m_per_s2, positive(), "Acceleration of gravity.");
-    t.number("depth_m", &S::depth, unit::m, positive(),
-             "Water depth, for moorings and waves: waves are as long as they are over a flat bed of this depth. What "
-             "hulls do to them is calculated as in deep water, and a warning says where that matters.")
+    t.number(
+         "depth_m", &S::depth, unit::m, positive(),
+         "Water depth, for moorings, waves and hulls: waves are as long as they are over a flat bed of this depth, and "
+         "`panels` are computed over it. Coefficients from files that do not say a depth are those of deep water, and "
+         "a warning says where that matters.")
         .absent("deep");
-    t.boolean("deep_waves", &S::deep_waves,
-              "The waves are those of deep water whatever `depth_m` says, which then serves the moorings alone.");
+    t.boolean(
+        "deep_waves", &S::deep_waves,
+        "The waves, and what hulls do to them, are those of deep water whatever `depth_m` says, which then serves "
+        "the moorings alone.");
     t.tables("states", &S::states, "name", &sea_state_table, "Sea states.");
     return t.build();
   }();

@@ -167,7 +167,7 @@ void find_moved_by_sea(const Specification& s, std::vector<std::string>& gaps) {
 }  // namespace
 
 std::vector<std::string> model_gaps(const Model& model, const Operation& operation) {
-  std::vector<std::string> gaps = shallow_water_gaps(model.specification().sea);
+  std::vector<std::string> gaps = shallow_water_gaps(model);
   find_moved_by_sea(model.specification(), gaps);
   find_under_bed(model.specification(), operation, gaps);
   find_splash(model.specification(), operation, gaps);

@@ -38,18 +38,33 @@ double between(const Ratios& table, double frequency, double depth) {
          r * ((1.0 - s) * table[j + 1][i] + s * table[j + 1][i + 1]);
 }
 
-std::string of_hulls(double frequency, double depth) {
+/// The hulls whose coefficients know of no bed, with commas in between.
+std::string without_bed(const Model& model) {
+  std::string names;
+  const std::vector<BodySpec>& bodies = model.specification().bodies;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (!bodies[k].floats() || bodies[k].hydrodynamics.kind == HydrodynamicsSpec::Kind::none) continue;
+    const auto& set = model.coefficients(static_cast<int>(k)).set;
+    if (!set || std::isinf(set->depth)) names += (names.empty() ? "" : ", ") + bodies[k].name;
+  }
+  return names;
+}
+
+std::string of_hulls(const std::string& names, double frequency, double depth) {
   const auto percent = [&](const Ratios& table) { return 100.0 * (between(table, frequency, depth) - 1.0); };
   const char* than = depth > kDepth.front() ? "less than " : depth < kDepth.back() ? "more than " : "";
   return fmt::format(
-      "what hulls do to them is calculated as in deep water, where a box barge of 110 m x 46 m with a draft of 4 m, "
-      "for one, lacks {}{:.0f} % of the heave force it has in beam seas of this period and {}{:.0f} % of its heave damping",
-      than, 100.0 - 1e4 / (100.0 + percent(kForce)), than, 100.0 - 1e4 / (100.0 + percent(kDamping)));
+      "what {} does to them is calculated without the bed, where a box barge of 110 m x 46 m with a draft of 4 m, "
+      "for one, lacks {}{:.0f} % of the heave force it has in beam seas of this period and {}{:.0f} % of its heave "
+      "damping; "
+      "kind = \"panels\" is computed over the bed",
+      names, than, 100.0 - 1e4 / (100.0 + percent(kForce)), than, 100.0 - 1e4 / (100.0 + percent(kDamping)));
 }
 
 }  // namespace
 
-std::vector<std::string> shallow_water_gaps(const SeaSpec& sea) {
+std::vector<std::string> shallow_water_gaps(const Model& model) {
+  const SeaSpec& sea = model.specification().sea;
   const SeaStateSpec* state = sea.active_state();
   if (!state || !(sea.depth > 0.0)) return {};
   const std::vector<SeaStatistics> numbers = sea_statistics(*state);
@@ -68,11 +83,11 @@ std::vector<std::string> shallow_water_gaps(const SeaSpec& sea) {
                     "calculated as waves of deep water, {:.0f} m long, because of sea.deep_waves, and hulls as in deep "
                     "water",
                     period, length, h, deep));
-  else
+  else if (const std::string names = without_bed(model); !names.empty())
     gaps.push_back(fmt::format(
         "the waves feel the bottom: those of {:.1f} s are {:.0f} m long in {:.1f} m of water, {:.1f} % shorter than in "
         "deep water; {}",
-        period, length, h, 100.0 * (1.0 - length / deep), of_hulls(omega, h)));
+        period, length, h, 100.0 * (1.0 - length / deep), of_hulls(names, omega, h)));
   // Height of the largest wave there is, or of the mean of the highest third.
   const bool regular = state->type == SeaStateSpec::Type::regular;
   const double height = regular ? 2.0 * state->amplitude : numbers.back().significant_height;

@@ -187,7 +187,8 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
       const double yaw = roll_pitch_yaw(X_WB.R).yaw;
       group.hulls.push_back({HeadingFrame(k, body.cog - reference, yaw), as_it_floats(mesh, X_WB, reference, spec.sea, depth_),
                              X_WB.p.head<2>(), body.hydrodynamics.diffraction_factor});
-      if (group.set) incident.emplace_back(mesh, group.set->waterline, group.set->density, gravity_);  // of deep water, as the set
+      // In water as deep as the set's.
+      if (group.set) incident.emplace_back(mesh, group.set->waterline, group.set->density, gravity_, group.set->depth);
       headings.push_back(yaw);
     }
     group.added_mass_factor = mode_factors(bodies, &HydrodynamicsSpec::added_mass_factor);
@@ -195,9 +196,9 @@ LinearResponse::LinearResponse(const Model& model, const SystemState& equilibriu
     if (group.set && !group.set->excitation.empty()) {
       group.diffraction.emplace(group.set->excitation, incident, headings, group.set->length);
       lowest_ = std::max(lowest_, group.set->excitation.frequencies.front());
-      const double shortest = std::pow(group.diffraction->highest_frequency(), 2) / gravity_;
-      highest_ = std::min(highest_, std::isinf(depth_) ? group.diffraction->highest_frequency()
-                                                       : wave_frequency(shortest, gravity_, depth_));
+      const double end = group.diffraction->highest_frequency();
+      const bool as_in_deep_water = std::isinf(group.set->depth) && std::isfinite(depth_);
+      highest_ = std::min(highest_, as_in_deep_water ? wave_frequency(end * end / gravity_, gravity_, depth_) : end);
     }
     const HydrodynamicsSpec& h = spec.bodies[members.front()].hydrodynamics;
     if (h.kind == HydrodynamicsSpec::Kind::constant) group.constant_added_mass = h.added_mass;

@@ -12,7 +12,8 @@
 // A vessel that moves by displacement RAOs (rao_table.h) answers with those: xi = Z y + x_p with the motion x_p of all
 // bodies that its joints carry along, and Z^T [...] x_p on the right.
 //
-// Waves and X_FK are those of the case's depth; of X_D see diffraction.h, A and B are those of deep water.
+// Waves and X_FK are those of the case's depth, A, B and X_D those of the depth of the coefficient set; of X_D of a set
+// of deep water where waves feel the bed see diffraction.h.
 //
 // A hull without a coefficient set is excited by the linear Froude-Krylov force alone. Quadratic damping, wires that
 // go slack, friction and the lag of tagline winches are left out. A phase is a lag: a motion with phase p peaks p/w

@@ -28,8 +28,8 @@ double reference_height_of(const std::vector<HydrodynamicsBody>& bodies, std::si
 std::string march_key(const std::vector<HullAfloat>& hulls, const SeaSpec& sea, const PanelMethodSpec& method) {
   std::ostringstream key;
   key.precision(17);
-  key << sea.density << ' ' << sea.gravity << ' ' << method.direct_step << ' ' << method.direct_lowest << ' '
-      << method.direct_highest << ' ' << method.refinement;
+  key << sea.density << ' ' << sea.gravity << ' ' << panel_depth(sea, method) << ' ' << method.direct_step << ' '
+      << method.direct_lowest << ' ' << method.direct_highest << ' ' << method.refinement;
   for (const PanelHull& hull : panel_hulls(hulls)) {
     key << ' ' << hull.waterline << ' ' << hull.box_size.transpose() << ' ' << hull.box_centre.transpose();
     if (hulls.size() > 1) key << ' ' << hull.x << ' ' << hull.y << ' ' << hull.yaw;
@@ -128,7 +128,7 @@ std::unique_ptr<Diffraction> build_diffraction(const std::vector<HydrodynamicsBo
       Mesh mesh = *bodies[i].afloat.mesh;
       const double height = reference_height_of(bodies, i);
       for (Vector3& vertex : mesh.vertices) vertex.z() -= height;
-      incident.emplace_back(mesh, c.waterline, c.density, c.gravity);
+      incident.emplace_back(mesh, c.waterline, c.density, c.gravity, c.depth);
       headings.push_back(bodies[i].afloat.yaw);
       require_close(c.volume[i], incident.back().volume(), options.volume_tolerance, "a displaced volume of", "m3",
                     *bodies[i].afloat.body);

@@ -40,8 +40,12 @@ struct DiffractionTable::Known {
 
 DiffractionTable::DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
                                    std::span<const double> headings, double length)
-    : headings_(total.headings), hulls_(froude_krylov.begin(), froude_krylov.end()), length_(length),
-      gravity_(froude_krylov[0].gravity()), known_(std::make_shared<Known>()) {
+    : headings_(total.headings),
+      hulls_(froude_krylov.begin(), froude_krylov.end()),
+      length_(length),
+      gravity_(froude_krylov[0].gravity()),
+      depth_(froude_krylov[0].depth()),
+      known_(std::make_shared<Known>()) {
   for (const double heading : headings) turned_.push_back(heading - headings[0]);
   const int directions = static_cast<int>(headings_.size());
   all_around_ = directions >= 4;
@@ -72,7 +76,8 @@ int DiffractionTable::closest(double heading) const {
 }
 
 double DiffractionTable::frequency_of(double frequency, double depth) const {
-  return std::isinf(depth) ? frequency : std::sqrt(gravity_ * wave_number(frequency, gravity_, depth));
+  return std::isinf(depth) || std::isfinite(depth_) ? frequency
+                                                    : std::sqrt(gravity_ * wave_number(frequency, gravity_, depth));
 }
 
 bool DiffractionTable::resolves(double frequency, double heading) const {
@@ -87,7 +92,7 @@ bool DiffractionTable::resolves_heading(double frequency, double heading) const 
   if (std::abs(u - std::round(u)) < 1e-6) return true;
   // Above the table it is what is read at its end that must be resolved; the limit of short waves is known everywhere.
   const double read = std::min(frequency, highest_frequency());
-  return read * read / gravity_ * 0.5 * length_ <= 0.5 * n;
+  return wave_number(read, gravity_, depth_) * 0.5 * length_ <= 0.5 * n;
 }
 
 Eigen::VectorXcd DiffractionTable::short_waves(double frequency, double heading) const {
@@ -124,10 +129,10 @@ Eigen::VectorXcd DiffractionTable::within(double frequency, double heading) cons
   const Eigen::VectorXcd y0 = at_heading(i, heading), y1 = at_heading(i + 1, heading);
   const double h = frequencies_[i + 1] - frequencies_[i];
   const Eigen::VectorXcd rise = (y1 - y0) / h;
-  // Slopes of the parabola through three neighbours; X_D ~ w^2 makes the one at w = 0 zero.
+  // Slopes of the parabola through three neighbours; in deep water X_D ~ w^2 makes the one at w = 0 zero.
   Eigen::VectorXcd slope0 = rise, slope1 = rise;
   if (i == 0) {
-    slope0.setZero();
+    if (std::isinf(depth_)) slope0.setZero();
   } else {
     const double before = frequencies_[i] - frequencies_[i - 1];
     slope0 = ((y0 - at_heading(i - 1, heading)) / before * h + rise * before) / (h + before);

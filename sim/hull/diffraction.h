@@ -13,11 +13,12 @@
 //
 //   X_D(w, b) = L(w, b) + (X_D(W, b) - L(W, b)) (W/w)^4,   w > W
 //
-// Coefficients are those of deep water. Where a wave feels the bed, X_D is read at the frequency sqrt(g k) that a wave
-// of its length has in deep water: what a hull throws back depends on its size in wave lengths. Against X of a box barge
-// of 110 m x 46 m x 4 m that HAMS computed over a bed, in waves of 8 to 16 s, the sum X_FK + X_D is then wrong by 1 to 20
-// % in 40 m of water and by 5 to 38 % in 20 m; with X_D read at w by up to 30 % and 103 % (heave in head seas, whose zero
-// the length decides). The heave force comes out too small: the narrow gap under a hull is not in it.
+// A set of water with a bed is read at the frequency of the wave. Where a wave feels the bed and the set is one of deep
+// water, X_D is read at the frequency sqrt(g k) that a wave
+// of its length has in deep water: what a hull throws back depends on its size in wave lengths. Against X of a box
+// barge of 110 m x 46 m x 4 m that HAMS computed over a bed, in waves of 8 to 16 s, the sum X_FK + X_D is then wrong by
+// 1 to 20 % in 40 m of water and by 5 to 38 % in 20 m; with X_D read at w by up to 30 % and 103 % (heave in head seas,
+// whose zero the length decides). The heave force comes out too small: the narrow gap under a hull is not in it.
 #pragma once
 
 #include <memory>
@@ -31,7 +32,7 @@
 namespace stillhook {
 
 /// X_D between the entries of a table: cubic in frequency (three-point slopes), trigonometric in heading. The table is
-/// continued to w = 0, where the hull does not disturb the wave, X_D = 0, and X_D ~ w^2.
+/// continued to w = 0, where the hull does not disturb the wave, X_D = 0, and X_D ~ w^2; over a bed X_D ~ w there.
 ///
 /// With heading the force of a wave turns in phase like exp(i k (length/2) cos b), which n headings resolve while
 /// k length/2 <= n/2; shorter waves can be looked up at the table's own headings only. So can all waves when the
@@ -40,7 +41,8 @@ class DiffractionTable {
  public:
   static constexpr double kSameDirection = 0.5 / 180.0 * 3.14159265358979323846;  // rad: 1 % of the force across
 
-  /// `froude_krylov` and `headings` (rad) of each hull of the set, in order; `length`: of the longest hull, m.
+  /// `froude_krylov` (in water as deep as the set's) and `headings` (rad) of each hull of the set, in order; `length`:
+  /// of the longest hull, m.
   DiffractionTable(const ExcitationTable& total, std::span<const LinearFroudeKrylov> froude_krylov,
                    std::span<const double> headings, double length);
 
@@ -48,7 +50,7 @@ class DiffractionTable {
   /// The headings go round the circle, so that those between can be looked up.
   bool all_around() const { return all_around_; }
   const std::vector<double>& headings() const { return headings_; }  // rad
-  /// The frequency to look a wave up at, rad/s; depth: that the wave feels, m.
+  /// The frequency to look a wave up at, rad/s; depth: that the wave feels, m, that of the set when this has one.
   double frequency_of(double frequency, double depth) const;
   /// False above the highest frequency and between headings that are too far apart for the wave length.
   bool resolves(double frequency, double heading) const;
@@ -70,7 +72,7 @@ class DiffractionTable {
   std::vector<Eigen::MatrixXcd> value_;  // [frequency] headings x modes
   std::vector<LinearFroudeKrylov> hulls_;
   std::vector<double> turned_;  // rad, heading of each hull from that of the first
-  double length_, gravity_;
+  double length_, gravity_, depth_;
   bool all_around_ = true;
   std::shared_ptr<Known> known_;
 };

@@ -20,19 +20,19 @@ Eigen::MatrixXcd diffraction_by_solution(const std::vector<PanelHull>& hulls, co
   const VectorX weight = panel_weights(panels, options.density);
   const int count = static_cast<int>(headings.size());
   Eigen::MatrixXcd X = Eigen::MatrixXcd::Zero(6 * hulls.size(), count);
-  for (const BoundaryClass& c : boundary_problem(panels, surface)) {
+  for (const BoundaryClass& c : boundary_problem(panels, surface, bed_within(band.width, layout, options))) {
     const ClassModes modes = modes_of(panels, layout, c.parity);
     if (modes.modes.empty()) continue;
     Eigen::MatrixXcd v(panels.panels.size(), count);
     for (int h = 0; h < count; ++h)
-      v.col(h) = -incident_velocity(panels, c.parity, frequency, headings[h], options.gravity);
+      v.col(h) = -incident_velocity(panels, c.parity, frequency, headings[h], options.gravity, options.depth);
     const auto response = frequency_responses(c, surface, beach, options.gravity, {{frequency}}, {&v, 1});
     const Eigen::MatrixXcd weighted = weight.cast<Complex>().asDiagonal() * response.front().hull;
     const Eigen::MatrixXcd F = Complex(0.0, -frequency) * (modes.normal.transpose().cast<Complex>() * weighted);
     for (std::size_t k = 0; k < modes.modes.size(); ++k)
       for (int h = 0; h < count; ++h)
-        X(modes.modes[k], h) =
-            F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h], options.gravity);
+        X(modes.modes[k], h) = F(k, h) * phase_at_origin(layout.hulls[modes.modes[k] / 6], frequency, headings[h],
+                                                         options.gravity, options.depth);
   }
   return to_middle(layout).transpose().cast<Complex>() * X;
 }

@@ -64,7 +64,7 @@ struct HydrodynamicsSpec {
 /// How coefficients are computed and what is accepted of them, for all hulls.
 struct PanelMethodSpec {
   enum class Beyond { limit, cut, refuse };
-  double lowest = 0.2;                 // rad/s
+  double lowest = 0.0;                 // rad/s; 0 = as the depth of the water asks for
   double highest = 0.0;                // rad/s; 0 = as the hull's size and the seas ask for
   int frequencies = 0;                 // 0 = as many as the hull's size asks for
   int headings = 0;                    // around the circle; 0 = as many as the waves need

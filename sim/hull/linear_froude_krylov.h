@@ -49,6 +49,7 @@ class LinearFroudeKrylov {
   /// m3, enclosed by S and the water plane.
   double volume() const { return volume_; }
   double gravity() const { return gravity_; }  // m/s2
+  double depth() const { return depth_; }      // m
   WaterplaneIntegrals waterplane() const;
 
  private:

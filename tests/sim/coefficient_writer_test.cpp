@@ -41,9 +41,11 @@ TEST_CASE("a coefficient file is written as it is read", "[coefficient_writer]")
   HydrodynamicCoefficients c = crane_set();
   c.waterline = 0.123456;
   c.description = "one, two,\nthree";
+  c.depth = 20.5;
   write_coefficient_file(folder / "hull.csv", c);
   CHECK(folder.files() == 1);  // nothing temporary is left
   const HydrodynamicCoefficients back = read_coefficient_file(folder / "hull.csv");
+  CHECK(back.depth == 20.5);
   CHECK(back.description == "one, two, three");  // on one line
   require_same(c, back);
   CHECK(back.retardation.kernels.size() == c.retardation.kernels.size());
@@ -54,6 +56,8 @@ TEST_CASE("two hulls' coefficients travel too", "[coefficient_writer]") {
   const HydrodynamicCoefficients c = pair_set();
   write_coefficient_file(folder / "pair.csv", c);
   require_same(c, read_coefficient_file(folder / "pair.csv"));
+  CHECK(
+      std::isinf(read_coefficient_file(folder / "pair.csv").depth));  // a file that says no depth is one of deep water
 }
 
 TEST_CASE("what the format cannot say is refused before anything is written", "[coefficient_writer]") {

@@ -172,6 +172,16 @@ TEST_CASE("what WAMIT files do not say must be given", "[wamit_file]") {
   DatabaseFrame f = frame();
   f.accept_finite_depth = true;
   CHECK(message(u, f) == "accepted");
+  // In water as deep as the case's, within 5 %, it is what the case needs.
+  f = frame();
+  f.depth = 20.9;
+  CHECK(message(u, f) == "accepted");
+  CHECK(read_wamit(files.base, u, f).depth == 20.0);
+  f.depth = 21.1;
+  CHECK_THAT(message(u, f), Catch::Contains("depth of 20 m") && Catch::Contains("sea.depth_m = 21.1 m"));
+  u.depth = 40.0;  // no wave of the file feels it
+  CHECK(std::isinf(read_wamit(files.base, u, frame()).depth));
+  u.depth = 20.0;
   f = frame();
   f.length = 0.0;
   CHECK_THAT(message(units(), f), Catch::Contains("length scale"));

@@ -276,7 +276,7 @@ HydrodynamicCoefficients BemioReader::read() {
   }
   const double h = depth();
   cut_frequencies(c, frame_, path_);
-  require_deep_water(c.excitation, gravity_, h, frame_, path_);
+  c.depth = water_of(c.excitation, gravity_, h, frame_, path_);
   complete_retardation(c, frame_);
   turn_heading(c, cg[0], frame_, h, path_);
   to_body_origins(c, cg, frame_, h);

@@ -95,7 +95,10 @@ void write_parameters(Hdf5File& file, const HydrodynamicCoefficients& c) {
   file.write(name + "rho", number(c.density), "kg/m^3");
   file.write(name + "T", list(T), "s");
   file.write(name + "w", list(c.excitation.frequencies), "rad/s");
-  file.write(name + "water_depth", std::string("infinite"));
+  if (std::isinf(c.depth))
+    file.write(name + "water_depth", std::string("infinite"));
+  else
+    file.write(name + "water_depth", number(c.depth), "m");
   file.write(name + "wave_dir", list(headings), "deg");
 }
 

@@ -7,6 +7,7 @@
 
 #include "sim/hull/coefficients/coefficients.h"
 #include "sim/hull/silent_modes.h"
+#include "sim/sea/dispersion.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -194,7 +195,8 @@ SelfCheck check_low_frequency(const HydrodynamicCoefficients& c) {
   for (std::size_t f = 1; f < c.frequency.size(); ++f) others = others.cwiseMax(c.frequency[f].A.diagonal());
   const FrequencyCoefficients& lowest = c.frequency[0];
   for (int i = 0; i < c.modes(); ++i)
-    if (others(i) > 0.0) worsen(check, lowest.A(i, i) / others(i), at_frequency("A", i, i, lowest.frequency));
+    if (others(i) > 0.0 && (std::isinf(c.depth) || is_free(i)))
+      worsen(check, lowest.A(i, i) / others(i), at_frequency("A", i, i, lowest.frequency));
   return check;
 }
 
@@ -247,12 +249,13 @@ SelfCheck check_haskind(const HydrodynamicCoefficients& c, const SelfCheckTolera
   for (double w : X.frequencies)
     if (radiation_at(c, w, A, B)) largest = largest.cwiseMax(B.diagonal());
   for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
-    const double w = X.frequencies[f], k = w * w / c.gravity;
+    const double w = X.frequencies[f], k = wave_number(w, c.gravity, c.depth);
     if (between_table_frequencies(c, w)) continue;
     if (headings < 2.0 * (0.5 * k * diagonal_of(c) * c.hulls() + 1.0) || !radiation_at(c, w, A, B)) continue;
     VectorX scale = B.diagonal().cwiseMax(kHaskindFloor * largest);
     for (int i = 0; i < c.modes(); ++i) scale(i) = std::max(scale(i), least_damping_scale(c, i, w, A(i, i)));
-    const double factor = std::pow(w / c.gravity, 3) / (2.0 * c.density * headings);  // 2 pi / headings / (4 pi ...)
+    const double factor =
+        radiated_share(w, c.gravity, c.depth) / (2.0 * c.density * headings);  // 2 pi/headings/(4 pi ...)
     for (int i = 0; i < c.modes(); ++i)
       for (int j = 6 * (i / 6); j <= i; ++j) {
         double energy = 0.0;
@@ -274,7 +277,7 @@ void add_long_wave_checks(const HydrodynamicCoefficients& c, const SelfCheckTole
   const ExcitationTable& X = c.excitation;
   const double w = X.frequencies[0];
   MatrixX A, B;
-  if (0.5 * w * w / c.gravity * c.length > kLongWave || !radiation_at(c, w, A, B)) return;
+  if (0.5 * wave_number(w, c.gravity, c.depth) * c.length > kLongWave || !radiation_at(c, w, A, B)) return;
   SelfCheck phase{"long_wave_phase", "phase of the excitation in long waves", "", 0.0, t.long_wave_phase,
                   "long_wave_phase_tolerance"};
   SelfCheck heave{"long_wave_heave", "heave force in long waves against the water plane", "", 0.0, t.long_wave_heave,

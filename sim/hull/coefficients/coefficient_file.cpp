@@ -208,6 +208,7 @@ HydrodynamicCoefficients CoefficientReader::read() const {
   c.length = text_.header_number("length_m", 0.0, true);
   c.volume = text_.per_hull("volume_m3");
   c.waterplane = text_.per_hull("waterplane_m2");
+  if (text_.has("depth_m")) c.depth = text_.header_number("depth_m", 0.0, true);
   if (text_.has("gap_rise")) c.gap_rise = text_.header_number("gap_rise", 0.0, true);
   if (text_.has("gap_frequency_rad_s")) c.gap_frequency = text_.header_number("gap_frequency_rad_s", 0.0, true);
   check_duplicates();

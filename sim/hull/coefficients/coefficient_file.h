@@ -10,6 +10,7 @@
 //   waterline_m,0                            height of the calm water plane above Bo
 //   volume_m3,20240                          displaced volume, one number a hull
 //   waterplane_m2,5060                       optional: area of the water plane, one number a hull
+//   depth_m,20                               optional: depth of the water; without it the water is deep
 //   density_kg_m3,1025
 //   gravity_m_s2,9.80665
 //   length_m,110                             length scale of the hull

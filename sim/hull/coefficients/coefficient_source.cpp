@@ -13,12 +13,14 @@
 #include "sim/hull/coefficients/coefficient_file.h"
 #include "sim/hull/coefficients/content_hash.h"
 #include "sim/hull/coefficients/database_band.h"
+#include "sim/hull/coefficients/database_frame.h"
 #include "sim/hull/coefficients/database_source.h"
 #include "sim/hull/coefficients/file_stiffness.h"
 #include "sim/hull/coefficients/sea_band.h"
 #include "sim/hull/linear_froude_krylov.h"
 #include "sim/hull/radiation/causal_kernels.h"
 #include "sim/hull/silent_modes.h"
+#include "sim/spatial/constants.h"
 
 namespace stillhook {
 namespace {
@@ -27,6 +29,10 @@ namespace {
 constexpr const char* kMethodVersion = "rankine 5";
 constexpr const char* kMethodOfMeshes = "triangles to the diagonal";
 constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
+constexpr const char* kMethodOverBed = "flat bed 1";         // the same in water of finite depth
+
+// rad/s, of an automatic band: of deep water; over a bed, where B_33 falls as w alone and K has a long tail.
+constexpr double kLowest = 0.2, kLowestOverBed = 0.1;
 
 using Set = std::shared_ptr<const HydrodynamicCoefficients>;
 
@@ -40,6 +46,10 @@ std::string key_of(const std::vector<PanelHull>& hulls, const PanelMethodOptions
   for (const double value : {o.density, o.gravity, o.lowest, o.highest, static_cast<double>(o.frequencies),
                              static_cast<double>(o.headings), o.refinement, o.panel_length, o.sea_highest})
     hash.add(value);
+  if (std::isfinite(o.depth)) {
+    hash.add(std::string(kMethodOverBed));
+    hash.add(o.depth);
+  }
   for (const PanelHull& hull : hulls) {
     hash.add(hull.waterline);
     hash.add(hull.box_size);
@@ -112,6 +122,20 @@ std::string gap_warning(const std::string& body, const HydrodynamicCoefficients&
   return sentence.str();
 }
 
+/// A set of water with a bed serves no other depth.
+void require_depth(const HydrodynamicCoefficients& set, const SeaSpec& sea) {
+  const double depth = sea.wave_depth();
+  if (std::isinf(set.depth) || std::abs(depth / set.depth - 1.0) <= kSameDepth) return;
+  std::ostringstream sentence;
+  sentence << "holds for water " << set.depth << " m deep, ";
+  if (std::isinf(depth))
+    sentence << "the waves of the case are those of deep water" << (sea.deep_waves ? " (sea.deep_waves)" : "");
+  else
+    sentence << "sea.depth_m is " << depth << " m, more than " << 100.0 * kSameDepth << " % off";
+  sentence << ": the depths must be the same, or the coefficients those of deep water";
+  throw SpecificationError(set.source, "", sentence.str());
+}
+
 /// Once for each set: every model of a search has the same.
 void check(const Set& set, const PanelMethodSpec& method, std::vector<std::string>& warnings) {
   struct Entry {
@@ -171,11 +195,18 @@ std::vector<PanelHull> panel_hulls(std::span<const HullAfloat> hulls) {
   return result;
 }
 
+double panel_depth(const SeaSpec& sea, const PanelMethodSpec& method) {
+  const double lowest = method.lowest > 0.0 ? method.lowest : kLowest;
+  const double longest = kTwoPi * sea.gravity / (lowest * lowest), depth = sea.wave_depth();
+  return depth >= longest ? std::numeric_limits<double>::infinity() : depth;
+}
+
 PanelMethodOptions panel_options(const SeaSpec& sea, const PanelMethodSpec& method, double panel_length) {
   PanelMethodOptions options;
   options.density = sea.density;
   options.gravity = sea.gravity;
-  options.lowest = method.lowest;
+  options.depth = panel_depth(sea, method);
+  options.lowest = method.lowest > 0.0 ? method.lowest : std::isinf(options.depth) ? kLowest : kLowestOverBed;
   options.highest = method.highest;
   options.sea_highest = method.highest > 0.0 ? 0.0 : highest_of_seas(sea);
   options.frequencies = method.frequencies;
@@ -228,6 +259,7 @@ Set coefficient_set(std::span<const HullAfloat> hulls, const SeaSpec& sea, const
     Set set = kind == Kind::panels
                   ? cached_panel_method(panel_hulls(hulls), panel_options(sea, method, panel), progress, nullptr)
                   : file_set(hulls.front(), sea);
+    require_depth(*set, sea);
     warnings.insert(warnings.end(), set->remarks.begin(), set->remarks.end());
     if (const std::string difference = difference_from_hull(*set, hulls.front()); !difference.empty())
       warnings.push_back(difference);

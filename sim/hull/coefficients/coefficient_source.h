@@ -1,7 +1,8 @@
 // Where a hull's coefficient set comes from: a file, or the panel method on the hull as it floats.
 //
 // A set that was computed is kept, in memory for this process and on disk for the next, under a name that is a hash of
-// everything it depends on: the hulls' shapes and drafts, where they lie when they are coupled, water, band, panels, and
+// everything it depends on: the hulls' shapes and drafts, where they lie when they are coupled, water and its depth,
+// band, panels, and
 // the version of the method. On disk it is a coefficient file (coefficient_file.h) in $STILLHOOK_CACHE, else
 // $XDG_CACHE_HOME/stillhook, else ~/.cache/stillhook; where nothing can be written it is computed each time. A set is
 // always used as it reads back from that form, so that a first run and a later one agree to the last bit.
@@ -42,6 +43,9 @@ std::vector<PanelHull> panel_hulls(std::span<const HullAfloat> hulls);
 /// the reference point above Bo of another one, m.
 double reference_height(std::span<const HullAfloat> hulls, const HullAfloat& hull);
 PanelMethodOptions panel_options(const SeaSpec& sea, const PanelMethodSpec& method, double panel_length);
+/// m, of the water that panels are computed in: that of the waves, infinite from the length of the longest wave of the
+/// band of deep water on, of which the bed then returns exp(-4 pi) = 3e-6.
+double panel_depth(const SeaSpec& sea, const PanelMethodSpec& method);
 
 /// The set of one hull (kinds table, database, panels) or of several coupled ones (panels); null for other kinds. Checked
 /// by require_self_checks with method.accepted_checks; the sentences of those that failed go to `warnings`. Throws

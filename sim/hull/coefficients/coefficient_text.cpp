@@ -12,7 +12,7 @@ namespace stillhook {
 namespace {
 
 constexpr const char* kMagic = "stillhook_coefficients";
-const std::set<std::string> kOptionalKeys = {"waterplane_m2", "gap_rise", "gap_frequency_rad_s"};
+const std::set<std::string> kOptionalKeys = {"waterplane_m2", "gap_rise", "gap_frequency_rad_s", "depth_m"};
 constexpr const char* kColumns = "quantity,i,j_or_heading_deg,omega_rad_s_or_t_s,value,phase_deg";
 
 /// Fields between commas, without blanks around them.

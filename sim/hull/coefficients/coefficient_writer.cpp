@@ -48,6 +48,7 @@ class CoefficientWriter {
       for (double area : c_.waterplane) out_ << ',' << area;
     }
     if (c_.gap_rise > 0.0) out_ << "\ngap_rise," << c_.gap_rise << "\ngap_frequency_rad_s," << c_.gap_frequency;
+    if (std::isfinite(c_.depth)) out_ << "\ndepth_m," << c_.depth;
     out_ << "\ndensity_kg_m3," << c_.density << "\ngravity_m_s2," << c_.gravity << "\nlength_m," << c_.length
          << "\ntime_factor,exp(-i omega t)\nwave_heading,towards\nsymmetry,none\n"
             "quantity,i,j_or_heading_deg,omega_rad_s_or_t_s,value,phase_deg\n";

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/sea/dispersion.h"
+
 namespace stillhook {
 namespace {
 
@@ -70,6 +72,11 @@ RetardationFunctions truncated(const RetardationFunctions& K, double tolerance) 
     }
   }
   return result;
+}
+
+double radiated_share(double frequency, double gravity, double depth) {
+  if (std::isinf(depth)) return std::pow(frequency / gravity, 3);
+  return 0.5 * wave_number(frequency, gravity, depth) / (gravity * group_velocity(frequency, gravity, depth));
 }
 
 Matrix6 about_point(const Matrix6& about_origin, const Vector3& c) {

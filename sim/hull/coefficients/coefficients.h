@@ -12,6 +12,7 @@
 #pragma once
 
 #include <complex>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ struct HydrodynamicCoefficients {
   std::string description;         // origin of the numbers, for reports
   double density = 0.0;            // kg/m3, of the water it holds for
   double gravity = 0.0;            // m/s2
+  double depth = std::numeric_limits<double>::infinity();  // m, of the water it holds for
   double length = 0.0;             // m, the hull's length scale: rotations are compared with translations through it
   double waterline = 0.0;          // m, height of the calm water plane above Bo
   std::vector<double> volume;      // m3, displaced volume of each hull
@@ -100,6 +102,10 @@ RetardationFunctions truncated(const RetardationFunctions& K, double tolerance);
 /// The matrix of a hull's A or B about another point: from Bo to the point at c (m, in H from Bo).
 Matrix6 about_point(const Matrix6& about_origin, const Vector3& c);
 
+/// 4 pi rho B_ij / int_0^2pi Re(X_i conj X_j) db of a lone hull (Newman 1962): k/(2 g c_g), (s/m)^3; in deep water
+/// (w/g)^3.
+double radiated_share(double frequency, double gravity, double depth);
+
 /// A property every physical set has, measured on this one.
 struct SelfCheck {
   std::string key;     // "symmetry_infinite": how a user names it
@@ -117,12 +123,13 @@ struct SelfCheck {
 ///   symmetry_infinite   A_inf is symmetric, positive_infinite: and positive semidefinite
 ///   displaced_mass      A_inf in heave is neither < 1/100 nor > 300 of the displaced mass: kg, not tonnes
 ///   symmetry            of A(w), B(w);  damping: B(w) >= 0
-///   low_frequency       A(w) at the lowest frequency is not far above all others: it has a finite limit in deep water
+///   low_frequency       A(w) at the lowest frequency is not far above all others: it has a finite limit in deep water;
+///                       over a bed in surge, sway and yaw alone, the others grow like -ln w
 ///   kernel_damping      B(w) >= 0 of the retardation functions;  kernel_tail: they have died out at their end
 ///   kramers_kronig      the retardation functions against A(w), B(w)
 ///   haskind             the energy a moving hull radiates is that which waves from all around can give it (Newman
 ///   1962):
-///                         B_ij = w^3 / (4 pi rho g^3) int_0^2pi Re(X_i conj X_j) db      (deep water),
+///                         B_ij = k / (8 pi rho g c_g) int_0^2pi Re(X_i conj X_j) db,     c_g = dw/dk,
 ///                       wherever the headings resolve the integrand: more than 2 (k R + 1), R half the diagonal;
 ///                       errors relative to B, or to w m of the displaced water where no spring holds the hull, or in
 ///                       heave to what w (m + A) has above the spring of the water plane

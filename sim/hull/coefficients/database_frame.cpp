@@ -107,18 +107,24 @@ void require_frame(const DatabaseFrame& frame, const std::string& source) {
   }
 }
 
-void require_deep_water(const ExcitationTable& X, double gravity, double depth, const DatabaseFrame& frame,
-                        const std::string& source) {
+double water_of(const ExcitationTable& X, double gravity, double depth, const DatabaseFrame& frame,
+                const std::string& source) {
   if (!(depth > 0.0)) fail(source, "the water depth must be > 0 m");
-  if (X.frequencies.empty() || frame.accept_finite_depth || std::isinf(depth)) return;
+  if (X.frequencies.empty() || std::isinf(depth)) return std::numeric_limits<double>::infinity();
   const double k = wave_number(X.frequencies[0], gravity, depth);
-  if (k * depth >= std::numbers::pi) return;
+  if (k * depth >= std::numbers::pi) return std::numeric_limits<double>::infinity();
+  if (frame.accept_finite_depth || std::abs(frame.depth / depth - 1.0) <= kSameDepth) return depth;
   const double deep = std::sqrt(gravity * std::numbers::pi / depth * std::tanh(std::numbers::pi));
   std::ostringstream sentence;
   sentence.precision(4);
   sentence << "holds for a depth of " << depth << " m, which waves of " << X.frequencies[0]
-           << " rad/s feel; the coefficients of a hull are to be those of deep water: run the panel code without a bottom, or leave out "
-              "what feels it, with database_lowest_rad_per_s = "
+           << " rad/s feel, and the waves of the case are those of ";
+  if (std::isinf(frame.depth))
+    sentence << "deep water";
+  else
+    sentence << "sea.depth_m = " << frame.depth << " m, more than " << 100.0 * kSameDepth << " % off";
+  sentence << ": run the panel code for the depth of the case, or leave out what feels the bed, with "
+              "database_lowest_rad_per_s = "
            << std::ceil(1000.0 * deep) / 1000.0;
   fail(source, sentence.str());
 }
@@ -141,8 +147,7 @@ HydrodynamicCoefficients from_body_origins(const HydrodynamicCoefficients& coeff
   HydrodynamicCoefficients c = coefficients;
   const MatrixX T = velocity_map(origins_of(frame), reference);
   move_matrices(c, T);
-  const double deep = std::numeric_limits<double>::infinity();
-  change_excitation(c.excitation, c.gravity, deep, [&](Eigen::Map<Eigen::VectorXcd>& x, double k, double heading) {
+  change_excitation(c.excitation, c.gravity, c.depth, [&](Eigen::Map<Eigen::VectorXcd>& x, double k, double heading) {
     for (std::size_t n = 0; n < frame.bodies.size(); ++n)
       x.segment<6>(static_cast<Eigen::Index>(6 * n)) *= phase_at(frame.bodies[n].origin, k, heading);
     x = (T.transpose() * x.conjugate()).eval();

@@ -27,6 +27,10 @@ struct DatabaseBody {
   double volume = 0.0;               // m3, displaced; 0: what the database says
 };
 
+/// Share by which the depth of a set may differ from that of the case: in shallow water of half the length of its
+/// waves.
+inline constexpr double kSameDepth = 0.05;
+
 struct DatabaseFrame {
   std::vector<DatabaseBody> bodies = {{}};  // in the order of the database
   int chosen = 0;                           // from 1: that body alone of all in the database; 0: all of them
@@ -35,7 +39,8 @@ struct DatabaseFrame {
   bool axisymmetric = false;                // one heading stands for all, see turn_heading; one hull only
   double lowest = 0.0;                      // rad/s, lower frequencies are left out
   double highest = std::numeric_limits<double>::infinity();  // rad/s, higher frequencies are left out
-  bool accept_finite_depth = false;         // take a set computed where the longest wave feels the bottom
+  double depth = std::numeric_limits<double>::infinity();    // m, of the water that the set is for, see water_of
+  bool accept_finite_depth = false;                          // take a set computed in any depth
   RetardationOptions retardation;           // where the database has no retardation functions
   bool without_retardation = false;         // none are made of B where the database has none
 };
@@ -43,10 +48,11 @@ struct DatabaseFrame {
 /// Throws SpecificationError(source) unless there are hulls, all their origins at one height, and a length.
 void require_frame(const DatabaseFrame& frame, const std::string& source);
 
-/// Throws SpecificationError(source) when the lowest frequency of X is not in deep water (k h < pi), unless accepted:
-/// with the frequency from which on the depth does not matter.
-void require_deep_water(const ExcitationTable& X, double gravity, double depth, const DatabaseFrame& frame,
-                        const std::string& source);
+/// m, the depth that a set computed in water of `depth` m holds for: infinite when the lowest frequency of X is in deep
+/// water (k h >= pi), else the depth itself. Throws SpecificationError(source) when that is not frame.depth within 5 %,
+/// unless accepted: with the frequency from which on the depth does not matter.
+double water_of(const ExcitationTable& X, double gravity, double depth, const DatabaseFrame& frame,
+                const std::string& source);
 
 /// The same set about and at the hulls' origins; `reference` are the points of the database, one a hull. Waterline too.
 void to_body_origins(HydrodynamicCoefficients& coefficients, const std::vector<Vector3>& reference,

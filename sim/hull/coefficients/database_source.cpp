@@ -54,6 +54,7 @@ DatabaseOptions options_of(const HullAfloat& hull, const SeaSpec& sea) {
   options.frame.chosen = h.database_body;
   options.frame.axisymmetric = h.axisymmetric;
   options.frame.lowest = h.database_lowest;
+  options.frame.depth = sea.wave_depth();
   if (h.database_highest > 0.0) options.frame.highest = h.database_highest;
   options.frame.length = std::max(size.high.x() - size.low.x(), size.high.y() - size.low.y());
   options.frame.port_starboard = h.port_starboard;
@@ -96,9 +97,9 @@ std::string key_of_file(const HullAfloat& hull, const DatabaseOptions& o) {
   const DatabaseFrame& f = o.frame;
   const WamitUnits& w = o.wamit;
   key << ' ' << f.bodies[0].origin.transpose() << ' ' << f.bodies[0].volume << ' ' << f.chosen << ' ' << f.axisymmetric
-      << ' ' << f.lowest << ' ' << f.highest << ' ' << f.length << ' ' << f.port_starboard << ' ' << w.ulen << ' '
-      << w.reference[0].transpose() << ' ' << static_cast<int>(w.column) << ' ' << w.depth << ' ' << w.density << ' '
-      << w.gravity;
+      << ' ' << f.lowest << ' ' << f.highest << ' ' << f.depth << ' ' << f.length << ' ' << f.port_starboard << ' '
+      << w.ulen << ' ' << w.reference[0].transpose() << ' ' << static_cast<int>(w.column) << ' ' << w.depth << ' '
+      << w.density << ' ' << w.gravity;
   return key.str();
 }
 

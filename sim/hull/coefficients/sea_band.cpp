@@ -6,6 +6,7 @@
 
 #include "sim/hull/diffraction.h"
 #include "sim/hull/rankine/frequencies.h"
+#include "sim/sea/dispersion.h"
 #include "sim/sea/spectrum.h"
 #include "sim/spatial/constants.h"
 
@@ -78,18 +79,21 @@ void require_resolved_sea(std::span<const HullAfloat> hulls, const WaveField& wa
     diagonal = std::hypot(diagonal, (size.high - size.low).head<2>().norm());
   }
   const double highest = rankine::highest_frequency(diagonal, panel_options(sea, method, 0.0));
+  const double depth = panel_depth(sea, method);
   double energy = 0.0, beyond = 0.0;
   bool above = false;
   for (const WaveComponent& wave : waves.components()) {
     const double a2 = wave.amplitude * wave.amplitude;
     energy += a2;
-    // As DiffractionTable::resolves() will see it: at the frequency that a wave of this length has in deep water.
-    const double frequency = waves.deep() ? wave.frequency : std::sqrt(sea.gravity * wave.wavenumber);
+    // As DiffractionTable::resolves() will see it: of a set of deep water at the frequency that a wave of this length
+    // has there.
+    const double frequency =
+        waves.deep() || std::isfinite(depth) ? wave.frequency : std::sqrt(sea.gravity * wave.wavenumber);
     const bool too_short = method.beyond == Beyond::refuse && frequency > highest * (1.0 + 1e-9);
     const double read = std::min(frequency, highest);
     const double step = (std::atan2(wave.sin_heading, wave.cos_heading) - first.yaw) * method.headings / kTwoPi;
     const bool between = method.headings > 0 && std::abs(step - std::round(step)) >= 1e-6 &&
-                         read * read / sea.gravity * length > method.headings;
+                         wave_number(read, sea.gravity, depth) * length > method.headings;
     above |= too_short;
     if (too_short || between) beyond += a2;
   }

@@ -243,7 +243,7 @@ HydrodynamicCoefficients WamitReader::read() {
   if (const std::string path = wamit_path(base_, ".hst"); fs::exists(path)) read_stiffness(path, c);
   for (std::size_t n = 0; n < c.stiffness.size(); ++n) c.stiffness[n].about = reference[n] - frame_.bodies[n].origin;
   cut_frequencies(c, frame_, c.source);
-  require_deep_water(c.excitation, c.gravity, units_.depth, frame_, excitation);
+  c.depth = water_of(c.excitation, c.gravity, units_.depth, frame_, excitation);
   complete_retardation(c, frame_);
   turn_heading(c, reference[0], frame_, units_.depth, excitation);
   to_body_origins(c, reference, frame_, units_.depth);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/hull/rankine/frequencies.h"
+#include "sim/sea/dispersion.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
@@ -41,6 +42,7 @@ void require_options(const PanelMethodOptions& o) {
   const auto bad = [](const char* field, const char* rule) { throw SpecificationError("panel method", field, rule); };
   if (!(o.density > 0.0)) bad("density", "must be > 0");
   if (!(o.gravity > 0.0)) bad("gravity", "must be > 0");
+  if (!(o.depth > 0.0)) bad("depth", "must be > 0");
   if (!(o.lowest > 0.0 && (o.highest == 0.0 || o.highest > o.lowest)))
     bad("highest", "must be above the lowest frequency, which must be > 0");
   for (std::size_t i = 0; i < o.chosen.size(); ++i)
@@ -54,15 +56,18 @@ void require_options(const PanelMethodOptions& o) {
 
 std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options) {
   const std::vector<double> frequencies = frequencies_of(layout, options);
-  const int parts = std::max(
-      1, static_cast<int>(std::ceil(std::log(frequencies.back() / frequencies.front()) / std::log(kBandRatio))));
-  const double ratio = std::pow(frequencies.back() / frequencies.front(), 1.0 / parts);
+  // What divides the band is the length of its waves: over a bed by the frequency that they have in deep water.
+  std::vector<double> deep(frequencies);
+  for (double& w : deep) w = deep_frequency(w, options.gravity, options.depth);
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(std::log(deep.back() / deep.front()) / std::log(kBandRatio))));
+  const double ratio = std::pow(deep.back() / deep.front(), 1.0 / parts);
   std::vector<PanelBand> bands;
   std::size_t first = 0;
   for (int p = 1; p <= parts; ++p) {
-    const double end = p == parts ? 2.0 * frequencies.back() : frequencies.front() * std::pow(ratio, p);
+    const double end = p == parts ? 2.0 * deep.back() : deep.front() * std::pow(ratio, p);
     std::size_t last = first;
-    while (last < frequencies.size() && frequencies[last] < end * (1.0 - 1e-9)) ++last;
+    while (last < frequencies.size() && deep[last] < end * (1.0 - 1e-9)) ++last;
     if (last == first) continue;
     PanelBand band;
     band.frequencies.assign(frequencies.begin() + first, frequencies.begin() + last);
@@ -70,12 +75,15 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
     if (last < frequencies.size()) band.frequencies.push_back(frequencies[last]);
     band.from = band.frequencies.front();
     band.to = band.frequencies.back();
-    const double shortest = wave_length(band.to, options.gravity), longest = wave_length(band.from, options.gravity);
+    const auto wave = [&](double w) {
+      return wave_length(deep_frequency(w, options.gravity, options.depth), options.gravity);
+    };
+    const double shortest = wave(band.to), longest = wave(band.from);
     const double panel = options.panel_length > 0.0 ? options.panel_length : automatic_panel(layout);
     band.panel_length = std::min(panel, shortest / kPanelsPerWave) / options.refinement;
     band.far = shortest / kCellsPerWave / options.refinement;
     band.near = std::min(shortest / kCellsAtHull, panel * kPanelsAcross / kCellsAcross) / options.refinement;
-    band.width = kBeachWidth * longest;
+    band.width = kBeachWidth * longest * wider_beach(band.from, options.gravity, options.depth);
     if (layout.gap > 0.0) band.near = std::min(band.near, layout.gap / kCellsInGap / options.refinement);
     // Cells double outwards: the smallest are made to meet the largest size allowed, or all would stop far below it.
     const double doublings = std::log2(band.far / band.near);
@@ -84,7 +92,8 @@ std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& 
       // Two hulls have large surfaces: where the beach has taken the part's shortest waves, cells double once more.
       band.middle = band.far;
       band.far *= 2.0;
-      // int nu/c ds = kFaded with the group velocity c = w/2k.
+      // int nu/c ds = kFaded with the group velocity c, which is w/2k in deep water; over a bed nu has its share of
+      // that.
       const double k = kTwoPi / shortest;
       band.reach = std::cbrt(1.5 * kFaded * band.width * band.width / (Beach().strength * k));
     }
@@ -99,8 +108,19 @@ int headings_for(const Layout& layout, const PanelMethodOptions& options) {
   double length = 0.0;
   for (const Placement& p : layout.hulls) length = std::max(length, std::hypot(p.length, p.breadth));
   const double highest = frequencies_of(layout, options).back();
-  const double k = highest * highest / options.gravity;
+  const double k = wave_number(highest, options.gravity, options.depth);
   return 8 * std::max(3, static_cast<int>(std::ceil((k * length + 4.0) / 8.0)));
+}
+
+double wider_beach(double frequency, double gravity, double depth) {
+  return 0.75 + 0.25 * energy_speed(frequency, gravity, depth);
+}
+
+Bed bed_within(double width, const Layout& layout, const PanelMethodOptions& options) {
+  double reach = 0.0;  // of a corner of a hull from the middle of the first
+  for (const Placement& p : layout.hulls)
+    reach = std::max(reach, std::hypot(p.reference.x, p.reference.y) + 0.5 * std::hypot(p.length, p.breadth));
+  return {options.depth, reach + width};
 }
 
 FreeSurfaceGrid grid_of(const PanelBand& band) {
@@ -113,6 +133,7 @@ FreeSurfaceGrid grid_of(const PanelBand& band) {
 Beach beach_of(const PanelBand& band, const PanelMethodOptions& options) {
   Beach beach;
   beach.width = band.width;
+  beach.depth = options.depth;
   beach.gap = options.gap_damping;
   return beach;
 }

@@ -15,6 +15,13 @@ void require_options(const PanelMethodOptions& options);
 /// counted yet.
 std::vector<PanelBand> bands_of(const Layout& layout, const PanelMethodOptions& options);
 
+/// Width of a beach over that in deep water: 1, over a bed up to 1.25. There waves are of one speed, the beach's share
+/// of the wave number acts once and not squared, and a beach of the same width sends back more.
+double wider_beach(double frequency, double gravity, double depth);
+
+/// The bed under the hulls and a water surface that ends `width` (m) from them.
+Bed bed_within(double width, const Layout& layout, const PanelMethodOptions& options);
+
 FreeSurfaceGrid grid_of(const PanelBand& band);
 Beach beach_of(const PanelBand& band, const PanelMethodOptions& options);
 

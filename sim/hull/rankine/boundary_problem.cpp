@@ -1,6 +1,7 @@
 #include "sim/hull/rankine/boundary_problem.h"
 
 #include <cmath>
+#include <optional>
 
 #include "sim/spatial/constants.h"
 
@@ -27,7 +28,17 @@ struct Kernels {
   std::vector<MatrixX> S, D;  // one a class
 };
 
-Kernels hull_kernels(const std::vector<Vector3>& points, const HullPanels& hulls, int image_z) {
+Influence over_bed(const BedImages& bed, const FlatPanel& panel, const Vector3& x, int image_z) {
+  return image_z == 0 ? bed.half(panel, x) : image_z > 0 ? bed.even(panel, x) : bed.odd(panel, x);
+}
+
+std::optional<BedImages> images_in(const Bed& bed) {
+  if (bed.deep()) return std::nullopt;
+  return std::make_optional<BedImages>(bed);
+}
+
+Kernels hull_kernels(const std::vector<Vector3>& points, const HullPanels& hulls, int image_z,
+                     const std::optional<BedImages>& bed) {
   const std::vector<int> images = images_of(hulls.symmetry);
   const std::vector<Parity> classes = parities(hulls.symmetry);
   const int rows = static_cast<int>(points.size()), columns = static_cast<int>(hulls.panels.size());
@@ -39,6 +50,10 @@ Kernels hull_kernels(const std::vector<Vector3>& points, const HullPanels& hulls
     for (int i = 0; i < rows; ++i) {
       std::array<Influence, 4> at{};
       for (std::size_t m = 0; m < images.size(); ++m) {
+        if (bed) {
+          at[m] = over_bed(*bed, hulls.panels[j], reflected(points[i], images[m]), image_z);
+          continue;
+        }
         at[m] = influence(hulls.panels[j], reflected(points[i], images[m]));
         if (image_z != 0) {
           const Influence below = influence(hulls.panels[j], reflected(points[i], images[m] | 4));
@@ -61,7 +76,7 @@ Kernels hull_kernels(const std::vector<Vector3>& points, const HullPanels& hulls
 }
 
 std::vector<MatrixX> surface_kernels(const std::vector<Vector3>& points, const SurfacePanels& surface,
-                                     const Symmetry& symmetry) {
+                                     const Symmetry& symmetry, const std::optional<BedImages>& bed) {
   const std::vector<int> images = images_of(symmetry);
   const std::vector<Parity> classes = parities(symmetry);
   const int rows = static_cast<int>(points.size()), columns = surface.size();
@@ -72,7 +87,8 @@ std::vector<MatrixX> surface_kernels(const std::vector<Vector3>& points, const S
       std::array<double, 4> at{};
       for (std::size_t m = 0; m < images.size(); ++m) {
         const Vector3 x = reflected(points[i], images[m]);
-        for (int p = surface.first[j]; p < surface.first[j + 1]; ++p) at[m] += influence(surface.pieces[p], x).S;
+        for (int p = surface.first[j]; p < surface.first[j + 1]; ++p)
+          at[m] += bed ? bed->half(surface.pieces[p], x).S : influence(surface.pieces[p], x).S;
       }
       for (std::size_t c = 0; c < classes.size(); ++c) {
         double sum = 0.0;
@@ -136,9 +152,10 @@ BoundarySizes sizes_of(const HullPanels& hulls, const SurfacePanels& surface) {
   return sizes;
 }
 
-std::vector<BoundaryClass> limit_problem(const HullPanels& hulls) {
+std::vector<BoundaryClass> limit_problem(const HullPanels& hulls, const Bed& bed) {
   const std::vector<Vector3> on_hull = centroids(hulls);
-  const Kernels even = hull_kernels(on_hull, hulls, 1), odd = hull_kernels(on_hull, hulls, -1);
+  const std::optional<BedImages> images = images_in(bed);
+  const Kernels even = hull_kernels(on_hull, hulls, 1, images), odd = hull_kernels(on_hull, hulls, -1, images);
   std::vector<BoundaryClass> classes;
   for (const Parity& parity : parities(hulls.symmetry)) {
     const std::size_t c = classes.size();
@@ -151,13 +168,14 @@ std::vector<BoundaryClass> limit_problem(const HullPanels& hulls) {
   return classes;
 }
 
-std::vector<BoundaryClass> boundary_problem(const HullPanels& hulls, const SurfacePanels& surface) {
+std::vector<BoundaryClass> boundary_problem(const HullPanels& hulls, const SurfacePanels& surface, const Bed& bed) {
   const std::vector<Vector3> on_hull = centroids(hulls);
   std::vector<BoundaryClass> classes(parities(hulls.symmetry).size());
-  Kernels even = hull_kernels(on_hull, hulls, 1), odd = hull_kernels(on_hull, hulls, -1);
-  Kernels at_surface = hull_kernels(surface.point, hulls, 0);
-  std::vector<MatrixX> S_HF = surface_kernels(on_hull, surface, hulls.symmetry);
-  std::vector<MatrixX> S_FF = surface_kernels(surface.point, surface, hulls.symmetry);
+  const std::optional<BedImages> images = images_in(bed);
+  Kernels even = hull_kernels(on_hull, hulls, 1, images), odd = hull_kernels(on_hull, hulls, -1, images);
+  Kernels at_surface = hull_kernels(surface.point, hulls, 0, images);
+  std::vector<MatrixX> S_HF = surface_kernels(on_hull, surface, hulls.symmetry, images);
+  std::vector<MatrixX> S_FF = surface_kernels(surface.point, surface, hulls.symmetry, images);
   const std::vector<Parity> parity = parities(hulls.symmetry);
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t c = 0; c < classes.size(); ++c) {

@@ -1,4 +1,4 @@
-// The linear potential problem of hulls in still water, zero speed, deep water, as matrices.
+// The linear potential problem of hulls in still water, zero speed, deep water or over a flat bed, as matrices.
 //
 // Green's second identity for the potential phi on the hulls H and the water surface F (n into the water, unit source
 // 1/r; Kring 1994, ch. 3; Cha, Nam & Ha 2018, Eq. 6-8), with the kernel G+ = 1/r + 1/r' that has an image about z = 0:
@@ -21,6 +21,9 @@
 //
 // and with G+ and q = 0 that of low frequency, A(0).
 //
+// Over a flat bed at z = -h both kernels are sums over images in both planes (bed_images.h); on F the two halves of G+
+// are the same again, and half of G+ stands for 1/r. Everything else is as in deep water.
+//
 // Symmetry: with planes x = 0 and y = 0 everything splits into classes of potentials that are even or odd about each;
 // each class has matrices of its own, of the size of the part that is panelled.
 #pragma once
@@ -28,6 +31,7 @@
 #include <array>
 #include <vector>
 
+#include "sim/hull/rankine/bed_images.h"
 #include "sim/hull/rankine/free_surface.h"
 
 namespace stillhook::rankine {
@@ -68,9 +72,9 @@ struct BoundarySizes {
 BoundarySizes sizes_of(const HullPanels& hulls, const SurfacePanels& surface);
 
 /// Only what the limits of the frequency need: hull_response and local; N, C and R are empty.
-std::vector<BoundaryClass> limit_problem(const HullPanels& hulls);
+std::vector<BoundaryClass> limit_problem(const HullPanels& hulls, const Bed& bed = {});
 
 /// Everything. Classes in the order of parities().
-std::vector<BoundaryClass> boundary_problem(const HullPanels& hulls, const SurfacePanels& surface);
+std::vector<BoundaryClass> boundary_problem(const HullPanels& hulls, const SurfacePanels& surface, const Bed& bed = {});
 
 }  // namespace stillhook::rankine

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim/sea/dispersion.h"
+
 namespace stillhook::rankine {
 namespace {
 
@@ -156,10 +158,11 @@ class Responses {
  private:
   VectorXc kappa_at(double frequency) const {
     VectorXc kappa(surface_.size());
+    const double strength = beach_.strength * energy_speed(frequency, gravity_, beach_.depth);
     for (int i = 0; i < surface_.size(); ++i) {
       const double s = surface_.distance[i] / beach_.width;
       const double gap = !surface_.in_gap.empty() && surface_.in_gap[i] ? beach_.gap : 0.0;
-      const Complex w(frequency, (beach_.strength * s * s + gap) * frequency);
+      const Complex w(frequency, (strength * s * s + gap) * frequency);
       kappa(i) = w * w / gravity_;
     }
     return kappa;
@@ -194,6 +197,11 @@ class Responses {
 };
 
 }  // namespace
+
+double energy_speed(double frequency, double gravity, double depth) {
+  if (std::isinf(depth)) return 1.0;
+  return 2.0 * wave_number(frequency, gravity, depth) * group_velocity(frequency, gravity, depth) / frequency;
+}
 
 std::vector<FrequencyResponse> frequency_responses(const BoundaryClass& problem, const SurfacePanels& surface,
                                                    const Beach& beach, double gravity,

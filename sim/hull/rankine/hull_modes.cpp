@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/sea/dispersion.h"
+
 namespace stillhook::rankine {
 
 ClassModes modes_of(const HullPanels& panels, const Layout& layout, const Parity& parity) {
@@ -28,29 +30,35 @@ MatrixX inertia_of(const MatrixX& response, const ClassModes& modes, const Vecto
 }
 
 Eigen::VectorXcd incident_velocity(const HullPanels& panels, const Parity& parity, double frequency, double heading,
-                                   double gravity) {
+                                   double gravity, double depth) {
   using Complex = std::complex<double>;
-  const double k = frequency * frequency / gravity, c = std::cos(heading), s = std::sin(heading);
-  const Complex amplitude(0.0, -gravity / frequency);
+  const double k = wave_number(frequency, gravity, depth), c = std::cos(heading), s = std::sin(heading);
+  const double bed = bed_reflection(k, depth);
   Eigen::VectorXcd v = Eigen::VectorXcd::Zero(panels.panels.size());
-  for (int image = 0; image < 4; ++image) {
-    if (((image & 1) && !panels.symmetry.x) || ((image & 2) && !panels.symmetry.y)) continue;
-    const double mx = image & 1 ? -1.0 : 1.0, my = image & 2 ? -1.0 : 1.0;
-    const double sign = (image & 1 ? parity.x : 1) * (image & 2 ? parity.y : 1);
-    for (std::size_t j = 0; j < panels.panels.size(); ++j) {
-      const Vector3 &x = panels.panels[j].centroid, &n = panels.panels[j].normal;
-      // Mean over the panel to second order in k times its size: exp(K.r), K = k (i cos b, i sin b, 1).
-      const Eigen::Vector3cd K(Complex(0.0, k * mx * c), Complex(0.0, k * my * s), k);
-      const Complex spread = 0.5 * (K.transpose() * panels.panels[j].moment * K)(0) / panels.panels[j].area;
-      const Complex phi = amplitude * std::exp(K.x() * x.x() + K.y() * x.y() + K.z() * x.z() + spread);
-      v(j) += sign * k * phi * Complex(n.z(), mx * n.x() * c + my * n.y() * s);
+  // cosh k(z + h)/cosh kh as a part that falls with the depth and one that comes back from the bed.
+  for (const int upwards : {1, -1}) {
+    const Complex amplitude(0.0, -gravity / frequency * (upwards > 0 ? 1.0 : bed) / (1.0 + bed));
+    if (amplitude == 0.0) continue;
+    for (int image = 0; image < 4; ++image) {
+      if (((image & 1) && !panels.symmetry.x) || ((image & 2) && !panels.symmetry.y)) continue;
+      const double mx = image & 1 ? -1.0 : 1.0, my = image & 2 ? -1.0 : 1.0;
+      const double sign = (image & 1 ? parity.x : 1) * (image & 2 ? parity.y : 1);
+      for (std::size_t j = 0; j < panels.panels.size(); ++j) {
+        const Vector3 &x = panels.panels[j].centroid, &n = panels.panels[j].normal;
+        // Mean over the panel to second order in k times its size: exp(K.r), K = k (i cos b, i sin b, +-1).
+        const Eigen::Vector3cd K(Complex(0.0, k * mx * c), Complex(0.0, k * my * s), upwards * k);
+        const Complex spread = 0.5 * (K.transpose() * panels.panels[j].moment * K)(0) / panels.panels[j].area;
+        const Complex phi = amplitude * std::exp(K.x() * x.x() + K.y() * x.y() + K.z() * x.z() + spread);
+        v(j) += sign * k * phi * Complex(upwards * n.z(), mx * n.x() * c + my * n.y() * s);
+      }
     }
   }
   return v / panels.symmetry.images();
 }
 
-std::complex<double> phase_at_origin(const Placement& hull, double frequency, double heading, double gravity) {
-  const double k = frequency * frequency / gravity;
+std::complex<double> phase_at_origin(const Placement& hull, double frequency, double heading, double gravity,
+                                     double depth) {
+  const double k = wave_number(frequency, gravity, depth);
   return std::polar(1.0, -k * (hull.Bo_x * std::cos(heading) + hull.Bo_y * std::sin(heading)));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "sim/hull/rankine/layout.h"
@@ -22,13 +23,16 @@ VectorX panel_weights(const HullPanels& panels, double density);
 /// BoundaryClass).
 MatrixX inertia_of(const MatrixX& response, const ClassModes& modes, const VectorX& weight);
 
-/// d(phi_I)/dn on the panels of a wave of unit amplitude, the part of one parity: the mean over the images of sign times
-/// value; the whole is the sum over the parities. heading: rad in the problem's frame, time factor exp(-i w t), crest at
-/// the frame's origin at t = 0. m/s per m.
+/// d(phi_I)/dn on the panels of a wave of unit amplitude, the part of one parity: the mean over the images of sign
+/// times value; the whole is the sum over the parities. heading: rad in the problem's frame, time factor exp(-i w t),
+/// crest at the frame's origin at t = 0; depth: of the water, m. m/s per m.
+///
+///   phi_I = -(i g/w) exp(i k (x cos b + y sin b)) cosh k(z + h)/cosh kh,   w^2 = g k tanh kh,   in deep water exp(k z)
 Eigen::VectorXcd incident_velocity(const HullPanels& panels, const Parity& parity, double frequency, double heading,
-                                   double gravity);
+                                   double gravity, double depth = std::numeric_limits<double>::infinity());
 
 /// Turns the phase of a force from the crest at the problem's origin to the crest at the hull's Bo.
-std::complex<double> phase_at_origin(const Placement& hull, double frequency, double heading, double gravity);
+std::complex<double> phase_at_origin(const Placement& hull, double frequency, double heading, double gravity,
+                                     double depth = std::numeric_limits<double>::infinity());
 
 }  // namespace stillhook::rankine

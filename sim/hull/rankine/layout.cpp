@@ -112,6 +112,21 @@ Layout place(const std::vector<PanelHull>& hulls) {
   return layout;
 }
 
+void require_clearance(const std::vector<PanelHull>& hulls, const Layout& layout, double depth) {
+  for (std::size_t k = 0; k < hulls.size(); ++k) {
+    const double draft = layout.hulls[k].draft, least = (1.0 + kLeastClearance) * draft;
+    if (depth >= least) continue;
+    std::ostringstream sentence;
+    sentence << "has a draft of " << draft << " m in water of sea.depth_m = " << depth << " m, "
+             << (depth > draft ? std::to_string(std::lround(1000.0 * (depth - draft))) + " mm above the bed"
+                               : std::string("and stands on the bed"))
+             << ": panels need a tenth of the draft under the keel, a depth of " << least
+             << " m; sea.deep_waves = true takes waves and hull as in deep water, which is no substitute where the gap "
+                "decides the motions";
+    throw fault(hulls[k], sentence.str());
+  }
+}
+
 HullPanels panels_of(const std::vector<PanelHull>& hulls, const Layout& layout, double panel_length) {
   HullPanels all;
   all.symmetry = layout.symmetry;

@@ -27,6 +27,13 @@ struct Layout {
   double gap = 0.0;  // m, least distance between waterlines of different hulls; 0 for one hull
 };
 
+/// Share of its draft that a hull must have below its keel: in a narrower gap the pressure is not that of linear
+/// theory, and panels of one strength do not follow it.
+inline constexpr double kLeastClearance = 0.1;
+
+/// Throws SpecificationError("bodies.<name>") for a hull with less than that under its keel in water of `depth` m.
+void require_clearance(const std::vector<PanelHull>& hulls, const Layout& layout, double depth);
+
 /// Throws SpecificationError("bodies.<name>") for a hull that cannot be used and for hulls that overlap.
 Layout place(const std::vector<PanelHull>& hulls);
 

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "sim/hull/rankine/bands.h"
+#include "sim/hull/rankine/frequencies.h"
+#include "sim/sea/dispersion.h"
 #include "sim/spatial/constants.h"
 #include "sim/specification.h"
 
@@ -42,22 +45,30 @@ double highest_square(const MatrixX& P, const VectorX& damping, double gravity) 
 PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options, double dt)
     : dt_(dt), gravity_(options.gravity), modes_(6 * static_cast<int>(hulls.size())) {
   const Layout layout = place(hulls);
-  const auto wave = [&](double w) { return kTwoPi * gravity_ / (w * w); };
+  require_clearance(hulls, layout, options.depth);
+  const auto wave = [&](double w) {
+    const double deep = deep_frequency(w, gravity_, options.depth);
+    return kTwoPi * gravity_ / (deep * deep);
+  };
   double breadth = layout.hulls[0].breadth;
   for (const Placement& p : layout.hulls) breadth = std::min({breadth, p.breadth, p.length});
   const double panel = (options.panel_length > 0.0 ? options.panel_length / kPanelsInLength : breadth / kPanelsAcross) /
                        options.refinement;
-  const double strength = kBeachStrength * std::sqrt(options.lowest * options.highest);
+  const double middle = std::sqrt(options.lowest * options.highest);
+  const double strength = kBeachStrength * middle * energy_speed(middle, gravity_, options.depth);
   FreeSurfaceGrid grid;
   grid.near =
       std::min(panel * kPanelsAcross / kCellsAcross, wave(options.highest) / kCellsPerWave / options.refinement);
   if (layout.gap > 0.0) grid.near = std::min(grid.near, layout.gap / 4.0 / options.refinement);
   grid.far = wave(options.lowest) / kCellsPerLongestWave / options.refinement;
   grid.growth = kGrowth;
-  grid.width = kBeachWidth * wave(options.lowest);
-  // Amplitude exp(-int nu/c ds), nu = strength (s/L)^2, group velocity c = g/2w.
+  grid.width = kBeachWidth * wave(options.lowest) * wider_beach(options.lowest, gravity_, options.depth);
+  // Amplitude exp(-int nu/c ds), nu = strength (s/L)^2, group velocity c, in deep water g/2w.
   grid.middle = wave(options.highest) / kCellsPerShortestWave / options.refinement;
-  grid.reach = std::cbrt(1.5 * kFaded * gravity_ * grid.width * grid.width / (strength * options.highest));
+  const double slowness =  // g/2c
+      std::isinf(options.depth) ? options.highest
+                                : 0.5 * gravity_ / group_velocity(options.highest, gravity_, options.depth);
+  grid.reach = std::cbrt(1.5 * kFaded * gravity_ * grid.width * grid.width / (strength * slowness));
   const HullPanels panels = panels_of(hulls, layout, panel);
   const SurfacePanels surface = free_surface(panels, grid);
   damping_.resize(surface.size());
@@ -70,7 +81,7 @@ PanelMarch::PanelMarch(const std::vector<PanelHull>& hulls, const PanelMethodOpt
   const MatrixX T = to_middle(layout);
   A_inf_ = MatrixX::Zero(modes_, modes_);
   double fastest = 0.0;
-  for (BoundaryClass& c : boundary_problem(panels, surface)) {
+  for (BoundaryClass& c : boundary_problem(panels, surface, bed_within(grid.width, layout, options))) {
     const ClassModes modes = modes_of(panels, layout, c.parity);
     if (modes.modes.empty()) continue;
     const MatrixX P = c.N.partialPivLu().inverse();

@@ -11,6 +11,7 @@
 #include "sim/hull/rankine/hull_modes.h"
 #include "sim/hull/rankine/memory.h"
 #include "sim/interrupted.h"
+#include "sim/sea/dispersion.h"
 #include "sim/specification.h"
 
 namespace stillhook {
@@ -57,6 +58,7 @@ class Computation {
         to_middle_(to_middle(layout_)), modes_(6 * static_cast<int>(hulls.size())) {}
 
   HydrodynamicCoefficients run() {
+    require_clearance(hulls_, layout_, options_.depth);
     report_.bands = bands_of(layout_, options_);
     measure_parts(hulls_, layout_, options_, report_.bands);
     describe();
@@ -87,11 +89,21 @@ class Computation {
     if (!progress_(share, text.str())) throw Interrupted();
   }
 
+  bool deep() const { return std::isinf(options_.depth); }
+
+  std::string water() const {
+    if (deep()) return "deep water";
+    std::ostringstream text;
+    text << "water " << options_.depth << " m deep";
+    return text.str();
+  }
+
   void describe() {
     set_.source = "panel method";
-    set_.description = "Rankine panel method of stillhook, zero speed, deep water, upright at the mean draft";
+    set_.description = "Rankine panel method of stillhook, zero speed, " + water() + ", upright at the mean draft";
     set_.density = options_.density;
     set_.gravity = options_.gravity;
+    set_.depth = options_.depth;
     set_.waterline = hulls_[0].waterline;
     for (const Placement& p : layout_.hulls) set_.length = std::max({set_.length, p.length, p.breadth});
     set_.excitation.modes = modes_;
@@ -105,7 +117,10 @@ class Computation {
     for (const PanelBand& band : report_.bands)
       for (std::size_t f = 0; f + 1 < band.frequencies.size(); ++f) {
         const double a = band.frequencies[f], b = band.frequencies[f + 1];
-        const double phase = 0.5 * set_.length * (b * b - a * a) / options_.gravity;
+        const double phase = 0.5 * set_.length *
+                             (deep() ? (b * b - a * a) / options_.gravity
+                                     : wave_number(b, options_.gravity, options_.depth) -
+                                           wave_number(a, options_.gravity, options_.depth));
         const int parts = std::max(1, static_cast<int>(std::ceil(phase / kPhaseStep)));
         for (int i = 0; i < parts; ++i) set_.excitation.frequencies.push_back(a + i * (b - a) / parts);
       }
@@ -124,7 +139,7 @@ class Computation {
     }
     FrequencyCoefficients zero;
     zero.A = zero.B = set_.A_inf = MatrixX::Zero(modes_, modes_);
-    for (const BoundaryClass& c : limit_problem(panels)) {
+    for (const BoundaryClass& c : limit_problem(panels, bed_within(report_.bands.front().width, layout_, options_))) {
       const ClassModes modes = modes_of(panels, layout_, c.parity);
       if (modes.modes.empty()) continue;
       scatter<double>(inertia_of(c.local, modes, weight), modes.modes, set_.A_inf);
@@ -144,7 +159,8 @@ class Computation {
     A_inf_middle_ = set_.A_inf;
     set_.A_inf = about_origin(set_.A_inf);
     zero.A = about_origin(zero.A);
-    set_.frequency.push_back(std::move(zero));
+    // Over a bed A_33 grows like -ln w: there is no A(0).
+    if (deep()) set_.frequency.push_back(std::move(zero));
   }
 
   /// A, B and X_D of one part of the band. `tell_share` hears the share of it that is done; ends it by throwing.
@@ -158,7 +174,8 @@ class Computation {
     MatrixX A_inf = MatrixX::Zero(modes_, modes_);
     std::vector<Matrix<Complex>> A(count, Matrix<Complex>::Zero(modes_, modes_));
     // Influences of all classes are computed together; after that each class is a share of the rest.
-    const std::vector<BoundaryClass> classes = boundary_problem(panels, surface);
+    const std::vector<BoundaryClass> classes =
+        boundary_problem(panels, surface, bed_within(band.width, layout_, options_));
     constexpr double kInfluences = 0.4;
     int solved = 0;
     for (const BoundaryClass& c : classes) {
@@ -231,11 +248,13 @@ class Computation {
       Matrix<Complex> potential = weights[0] * weighted[first];
       for (std::size_t i = 1; i < weights.size(); ++i) potential += weights[i] * weighted[first + i];
       for (std::size_t h = 0; h < X.headings.size(); ++h) {
-        const Eigen::VectorXcd velocity = incident_velocity(panels, parity, w, X.headings[h], options_.gravity);
+        const Eigen::VectorXcd velocity =
+            incident_velocity(panels, parity, w, X.headings[h], options_.gravity, options_.depth);
         const Eigen::VectorXcd X_D = Complex(0.0, w) * (potential.transpose() * velocity);
         for (std::size_t k = 0; k < modes.modes.size(); ++k)
           X.at(static_cast<int>(f), static_cast<int>(h), modes.modes[k]) =
-              (still_[modes.modes[k]] ? 0.0 : X_D(k)) * phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity);
+              (still_[modes.modes[k]] ? 0.0 : X_D(k)) *
+              phase_at_origin(layout_.hulls[modes.modes[k] / 6], w, X.headings[h], options_.gravity, options_.depth);
       }
     }
     if (part > 0) join_excitation(report_.bands, part - 1, before, modes.modes, X);
@@ -245,7 +264,8 @@ class Computation {
   void add_froude_krylov() {
     ExcitationTable& X = set_.excitation;
     for (std::size_t k = 0; k < hulls_.size(); ++k) {
-      const LinearFroudeKrylov incident(hulls_[k].mesh, hulls_[k].waterline, options_.density, options_.gravity);
+      const LinearFroudeKrylov incident(hulls_[k].mesh, hulls_[k].waterline, options_.density, options_.gravity,
+                                        options_.depth);
       const Vector3 arm = layout_.hulls[k].from_Bo;
       std::vector<double> headings(X.headings);
       for (double& heading : headings) heading -= layout_.hulls[k].reference.yaw;
@@ -265,10 +285,10 @@ class Computation {
     }
   }
 
-  /// B from the energy that the waves carry away, w^3/(4 pi rho g^3) int X_i conj X_j db (Newman 1962), in place of that
-  /// of the pressure on the hull, which counts what beach and panels take near the hull as well and is small against the
-  /// pressure itself. Where the two are too far apart to be the same hull's, the pressure's stays and the self-check
-  /// "haskind" refuses the set.
+  /// B from the energy that the waves carry away, k/(8 pi rho g c_g) int X_i conj X_j db (Newman 1962), in place of
+  /// that of the pressure on the hull, which counts what beach and panels take near the hull as well and is small
+  /// against the pressure itself. Where the two are too far apart to be the same hull's, the pressure's stays and the
+  /// self-check "haskind" refuses the set.
   void take_radiated_damping() {
     const std::vector<SelfCheck> checks = self_checks(set_);
     const auto balance = std::find_if(checks.begin(), checks.end(), [](const auto& c) { return c.key == "haskind"; });
@@ -281,7 +301,8 @@ class Computation {
       const auto f = std::find(X.frequencies.begin(), X.frequencies.end(), at.frequency);
       if (f == X.frequencies.end()) continue;  // A(0)
       const Eigen::Map<const Matrix<Complex>> x(&X.at(static_cast<int>(f - X.frequencies.begin()), 0, 0), modes_, headings);
-      at.B = std::pow(at.frequency / options_.gravity, 3) / (2.0 * options_.density * headings) * (x * x.adjoint()).real();
+      at.B = radiated_share(at.frequency, options_.gravity, options_.depth) / (2.0 * options_.density * headings) *
+             (x * x.adjoint()).real();
     }
     std::ostringstream text;
     text.precision(2);
@@ -335,7 +356,7 @@ class Computation {
   MatrixX A_inf_middle_;
   std::vector<std::vector<FrequencyCoefficients>> parts_;  // of the band, about the middles; ends are in both
   int headings_kept_ = 1;    // every n-th heading is wanted
-  MatrixX scale_;            // A(0) about the middles
+  MatrixX scale_;            // A(0) about the middles; over a bed that of no flow through the water's surface
   std::vector<bool> still_;  // of each mode
   HydrodynamicCoefficients set_;
 };
@@ -345,6 +366,7 @@ class Computation {
 std::vector<PanelBand> planned_bands(const std::vector<PanelHull>& hulls, const PanelMethodOptions& options) {
   require_options(options);
   const Layout layout = place(hulls);
+  require_clearance(hulls, layout, options.depth);
   std::vector<PanelBand> bands = bands_of(layout, options);
   measure_parts(hulls, layout, options, bands);
   return bands;

@@ -1,20 +1,23 @@
-// Hydrodynamic coefficients of hulls by the Rankine panel method: from the geometry to added mass, radiation damping and
-// excitation over a band of frequencies.
+// Hydrodynamic coefficients of hulls by the Rankine panel method: from the geometry to added mass, radiation damping
+// and excitation over a band of frequencies.
 //
-// The linear problem at zero speed in deep water about the hulls upright at their mean drafts (rankine/
-// boundary_problem.h, rankine/frequency_response.h). The band is divided; each part has a water surface of its own whose
-// cells are a share of its shortest wave and whose beach is as wide as its longest one, so that long and short waves
-// cost the same. A(0) and A_inf are exact limits of the same panels.
+// The linear problem at zero speed, in deep water or over a flat bed, about the hulls upright at their mean drafts
+// (rankine/boundary_problem.h, rankine/frequency_response.h). The band is divided; each part has a water surface of its
+// own whose cells are a share of its shortest wave and whose beach is as wide as its longest one, so that long and
+// short waves cost the same. A(0) and A_inf are exact limits of the same panels.
 //
 //   A - A_inf and B from the discrete system at each frequency; B of a lone hull from the energy of its waves,
-//   B_ij = w^3/(4 pi rho g^3) int Re(X_i conj X_j) db                                              (Newman 1962)
-//   X = X_FK + X_D,  X_D,i = i w rho int phi_i d(phi_I)/dn dS     (Haskind 1957; Newman 1962), phi_I of a unit wave
+//   B_ij = k/(8 pi rho g c_g) int Re(X_i conj X_j) db       c_g = dw/dk; in deep water w^3/(4 pi rho g^3)  (Newman
+//   1962) X = X_FK + X_D,  X_D,i = i w rho int phi_i d(phi_I)/dn dS     (Haskind 1957; Newman 1962), phi_I of a unit
+//   wave
 //
 // X turns with the phase of the wave along the hull and needs more frequencies than the potentials do: between the
-// computed ones the potentials are interpolated (cubic), the wave is not. Haskind's relation is checked against the diffraction problem solved for itself, v = -d(phi_I)/dn.
+// computed ones the potentials are interpolated (cubic), the wave is not. Haskind's relation is checked against the
+// diffraction problem solved for itself, v = -d(phi_I)/dn.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,6 +39,7 @@ struct PanelHull {
 
 struct PanelMethodOptions {
   double density = 1025.0, gravity = 9.80665;  // kg/m3, m/s2
+  double depth = std::numeric_limits<double>::infinity();  // m, of the water
   double lowest = 0.2, highest = 2.0;          // rad/s, > 0: the band; highest 0 = automatic (rankine/frequencies.h)
   double sea_highest = 0.0;                    // rad/s, what an automatic band should reach for the seas
   int frequencies = 32;                        // >= 4, spaced evenly in the logarithm; 0 = automatic
