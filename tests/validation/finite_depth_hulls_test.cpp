@@ -81,6 +81,7 @@ void check_cylinder(double draft, double depth) {
     const FrequencyCoefficients& f = at_frequency(c, w);
     const int at = index_of(c.excitation.frequencies, w);
     INFO("draft " << draft << ", depth " << depth << ", Ka " << row.Ka);
+    // 1 %, or 0.005 of the displaced mass and of rho g A_w where added mass and force have all but gone.
     CHECK(f.A(0, 0) / mass == Approx(row.A11).epsilon(0.01).margin(0.005));
     CHECK(f.B(0, 0) / (mass * w) == Approx(row.B11).margin(0.02 * most_B11));
     // 1 %; in waves as short as a third of the cylinder 1.02 % was found over the narrowest gap.
@@ -89,7 +90,7 @@ void check_cylinder(double draft, double depth) {
     // 1.2 %, as in deep water: panels of the bottom's edge and of the sides, whose moments nearly cancel.
     CHECK(f.A(4, 4) / (mass * a * a) == Approx(row.A55).epsilon(0.015));
     CHECK(std::abs(c.excitation.at(at, 0, 0)) / force == Approx(row.X1).epsilon(0.01));
-    CHECK(std::abs(c.excitation.at(at, 0, 2)) / force == Approx(row.X3).epsilon(0.01));
+    CHECK(std::abs(c.excitation.at(at, 0, 2)) / force == Approx(row.X3).epsilon(0.01).margin(0.005));
   }
 }
 
