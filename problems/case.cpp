@@ -80,6 +80,7 @@ void read_document(Node root, Case& c) {
   check_plan(c, root, findings);
   check_varied_moves(c, root, findings);
   check_fit(c, root, findings);
+  check_operability(c, root, findings);
   check_weather(c.weather, root, findings);
   findings.throw_if_any();
   read_sea_files_of(c, root, findings);

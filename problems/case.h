@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "problems/fit_spec.h"
+#include "problems/operability_spec.h"
 #include "problems/weather_spec.h"
 #include "results/limits.h"
 #include "sim/error.h"
@@ -104,6 +105,7 @@ struct Case {
   PlanSpec plan;
   TuneSpec tune;
   FitSpec fit;
+  OperabilitySpec operability;
   WeatherSpec weather;
   std::shared_ptr<const Node> document;  // as used: the file plus every --set; names files by absolute paths
   std::string file;                      // what messages call the case file

@@ -37,6 +37,9 @@ void check_varied_moves(const Case& c, const Node& root, Findings& findings);
 /// Parameters and records of the fit.
 void check_fit(const Case& c, const Node& root, Findings& findings);
 
+/// The sea state whose height and period are set, lists that ascend, a limit to be reached.
+void check_operability(const Case& c, const Node& root, Findings& findings);
+
 /// Hours of daylight, phases and what stands beside them.
 void check_weather(const WeatherSpec& weather, const Node& root, Findings& findings);
 

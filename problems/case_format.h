@@ -32,6 +32,7 @@ const Table& limit_table();
 const Table& plan_table();
 const Table& tune_table();
 const Table& fit_table();
+const Table& operability_table();
 const Table& weather_table();
 
 }  // namespace stillhook

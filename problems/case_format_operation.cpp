@@ -297,6 +297,7 @@ const Table& case_table() {
     t.table("plan", &S::plan, &plan_table, "The search.").absent("no search");
     t.table("tune", &S::tune, &tune_table, "Tuning of tagline gains.").absent("as by default");
     t.table("fit", &S::fit, &fit_table, "What is estimated from measured runs.").absent("nothing");
+    t.table("operability", &S::operability, &operability_table, "In which sea the lift may be done.").absent("nothing");
     t.table("weather", &S::weather, &weather_table, "In which weather the lift may be done.").absent("nothing");
     return t.build();
   }();

@@ -32,6 +32,7 @@ std::vector<CaseSection> build_sections() {
       {"plan", false, true},  // but for its budget, see store_identity()
       {"tune", false, false},
       {"fit", false, false},
+      {"operability", false, false},
       {"weather", false, false},
       {"wind", true, true},
   };

@@ -5,8 +5,8 @@ namespace stillhook {
 std::vector<std::unique_ptr<Verb>> all_verbs() {
   std::vector<std::unique_ptr<Verb>> verbs;
   for (const auto& make :
-       {check_verb, hydro_verb, simulate_verb, plan_verb, tune_verb, fit_verb, weather_verb, report_verb,
-        export_verb, schema_verb})
+       {check_verb, hydro_verb, simulate_verb, plan_verb, tune_verb, fit_verb, operability_verb, weather_verb,
+        report_verb, export_verb, schema_verb, campaign_verb, worker_verb})
     verbs.push_back(make());
   return verbs;
 }

@@ -39,6 +39,11 @@ class LimitFileReader {
     const auto known = [&](double LimitRow::*member) {
       return std::none_of(rows_.begin(), rows_.end(), [&](const LimitRow& r) { return std::isnan(r.*member); });
     };
+    // The bounds are those of the whole operation, where the file has them.
+    if (has_whole_) {
+      phases_ = {""};
+      std::erase_if(rows_, [](const LimitRow& row) { return !row.phase.empty(); });
+    }
     if (low_ && known(&LimitRow::low)) result.low = limits_of(&LimitRow::low);
     if (high_ && known(&LimitRow::high)) result.high = limits_of(&LimitRow::high);
     add_remarks(result);
@@ -104,7 +109,7 @@ class LimitFileReader {
     bool several = false;
     for (const LimitRow& row : rows_) {
       auto& of_condition = lines[{row.period, row.heading}];
-      const auto [first, is_new] = of_condition.emplace(row.phase, row.line);
+      const auto [first, is_new] = of_condition.emplace(is_whole(row.phase) ? "" : row.phase, row.line);
       if (!is_new)
         throw CaseError(
             fmt::format("{}:{}: {}{} stands in line {} already; keep one of them, or name the phases that they "
@@ -118,13 +123,18 @@ class LimitFileReader {
       phases_ = {""};
       return;
     }
-    for (const LimitRow& row : rows_)
-      if (!is_whole(row.phase) && std::find(phases_.begin(), phases_.end(), row.phase) == phases_.end())
+    for (LimitRow& row : rows_) {
+      if (is_whole(row.phase)) {
+        row.phase.clear();
+        has_whole_ = true;
+      } else if (std::find(phases_.begin(), phases_.end(), row.phase) == phases_.end()) {
         phases_.push_back(row.phase);
-    std::erase_if(rows_, [](const LimitRow& row) { return is_whole(row.phase); });
+      }
+    }
+    if (has_whole_) phases_.emplace_back();  // without a name, behind the phases
   }
 
-  /// The whole operation beside its phases says nothing new.
+  /// The limit of the whole operation, which is lower than that of each phase: any of them may break.
   static bool is_whole(const std::string& phase) { return phase.empty() || phase == "all"; }
 
   OperationLimits limits_of(double LimitRow::*member) const {
@@ -195,6 +205,7 @@ class LimitFileReader {
   std::vector<LimitRow> rows_;
   std::vector<std::string> phases_;
   int without_limit_ = 0;
+  bool has_whole_ = false;
 };
 
 }  // namespace

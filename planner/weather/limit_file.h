@@ -5,7 +5,9 @@
 // A row is the limiting significant wave height at a peak period and a heading (direction that the waves travel
 // towards, relative to the bow, positive to port: 180 from ahead, 90 from starboard abeam). Without the column of
 // headings, or of periods, the limit does not depend on it. Every heading must be there at every period. Rows that
-// differ in the phase alone are limits by phase; otherwise the phase only says where the limit was reached.
+// differ in the phase alone are limits by phase; otherwise the phase only says where the limit was reached. Beside
+// phases, rows without one or of phase "all" are limits of the whole operation: they hold too in a record, and for a
+// forecast in phases that have none of their own.
 #pragma once
 
 #include <optional>

@@ -12,9 +12,12 @@ namespace stillhook {
 namespace {
 
 OperationLimits limits_of_phase(const OperationLimits& limits, const std::string& phase) {
-  OperationLimits own;
-  for (const PhaseLimit& limit : limits.phases)
-    if (limit.phase.empty() || phase.empty() || limit.phase == phase) own.phases.push_back(limit);
+  OperationLimits own, whole;
+  for (const PhaseLimit& limit : limits.phases) {
+    if (phase.empty() || limit.phase == phase) own.phases.push_back(limit);
+    if (limit.phase.empty()) whole.phases.push_back(limit);
+  }
+  if (own.phases.empty()) own = whole;
   if (own.phases.empty()) throw std::invalid_argument("the limits have none for phase \"" + phase + "\"");
   return own;
 }

@@ -34,7 +34,7 @@ TEST_CASE("a wrong command or option is answered with the nearest right one") {
     return result.err;
   };
   CHECK_THAT(fault({"simulat", "x.toml"}), Contains("there is no command \"simulat\", did you mean \"simulate\"?") &&
-                                               Contains("check, hydro, simulate, plan, tune, fit, weather, report, export"));
+                                               Contains("check, hydro, simulate, plan, tune, fit, operability, weather, report, export"));
   CHECK_THAT(fault({"frobnicate"}), Contains("there is no command \"frobnicate\".") && Contains("fit"));
   CHECK_THAT(fault({"lift.toml"}), Contains("stillhook check lift.toml"));
   CHECK_THAT(fault({}), Contains("a command is missing") && Contains("simulate"));

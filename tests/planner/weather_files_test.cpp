@@ -61,12 +61,17 @@ TEST_CASE("limits by phase, with bounds, and what must be known of them", "[weat
   const Folder folder;
   const LimitFile two = read_limit_file(
       written(folder, "l.csv",
-              "tp [s],phase,hs_limit [m],hs_low [m],hs_high [m]\n6,a,1,0.9,1.1\n6,b,2,1.9,2.1\n6,all,1,0.9,1.1\n"));
-  REQUIRE(two.limits.phases.size() == 2);
+              "tp [s],phase,hs_limit [m],hs_low [m],hs_high [m]\n6,a,1,0.9,1.1\n6,b,2,1.9,\n6,all,0.9,0.8,1.1\n"));
+  REQUIRE(two.limits.phases.size() == 3);
   CHECK(two.limits.phases[1].phase == "b");
-  CHECK(two.limits.at(6.0, 0.0) == 1.0);
+  CHECK(two.limits.phases[2].phase.empty());
+  // The whole operation is broken where any phase is: its limit is the lowest, and its bounds are those that count.
+  CHECK(two.limits.at(6.0, 0.0) == 0.9);
   REQUIRE(two.low);
-  CHECK(two.low->at(6.0, 0.0) == 0.9);
+  CHECK(two.low->at(6.0, 0.0) == 0.8);
+  REQUIRE(two.high);
+  CHECK(two.high->at(6.0, 0.0) == 1.1);
+  CHECK_FALSE(read_limit_file(written(folder, "p.csv", "tp [s],phase,hs_limit [m],hs_high [m]\n6,a,1,1.1\n6,b,2,\n")).high);
   // One row a condition: the phase only says where the limit was reached.
   CHECK(read_limit_file(kWeather + "limits.csv").limits.phases.size() == 1);
   const LimitFile few = read_limit_file(written(folder, "f.csv", "heading [deg],hs_limit [m]\n90,1\n180,2\n"));

@@ -163,10 +163,11 @@ void WeatherVerb::plan_times(WeatherTask& task, const std::optional<Case>& c, co
   task.planned_h = task.spec.operation ? *task.spec.operation / kHour : sum;
   if (by_phase && !planned.empty()) {
     task.phases = planned;
-    // Limits of some phases only: the others may be done in any sea that the limits cover.
+    // Limits of some phases only: the others may be done in any sea that the limits cover, unless the whole operation
+    // has one.
     std::erase_if(task.phases, [&](const PlannedPhase& phase) {
       return std::none_of(task.limits.limits.phases.begin(), task.limits.limits.phases.end(),
-                          [&](const PhaseLimit& limit) { return limit.phase == phase.name; });
+                          [&](const PhaseLimit& limit) { return limit.phase == phase.name || limit.phase.empty(); });
     });
     for (const PlannedPhase& phase : planned)
       if (std::none_of(task.phases.begin(), task.phases.end(),
