@@ -54,7 +54,7 @@ class AccountedRun {
     const double h = model_.specification().solver.time_step;
     stepper_.start(state_);
     clock_.advance(state_.t, recorder_);
-    board_.measure(state_, stepper_.workspace(), 0);
+    board_.measure(state_, stepper_.workspace(), 0, true);
     const double first = mechanical() + gear_energy();
     std::vector<DriveState> drives(state_.drive.size());
     for (long k = 1; !clock_.finished(state_.t); ++k) {
@@ -68,7 +68,7 @@ class AccountedRun {
       account(before, mechanical_before, stored_before, h);
       clock_.advance(state_.t, recorder_);
       begin_phase();
-      board_.measure(state_, stepper_.workspace(), state_.phase);
+      board_.measure(state_, stepper_.workspace(), state_.phase, true);
       recorder_.add(state_.t, h, state_.phase, false);
       result_.stored = std::max(result_.stored, std::abs(mechanical() + gear_energy() - first));
       watch_joints();
@@ -161,7 +161,7 @@ class AccountedRun {
 
   void account(const SystemState& before, double mechanical_before, const std::map<std::string, double>& stored_before,
                double h) {
-    board_.measure(state_, stepper_.workspace(), state_.phase);
+    board_.measure(state_, stepper_.workspace(), state_.phase, true);
     const std::map<std::string, double> now = powers(before, h);
     gear_energy();
     double sum = 0.0;
