@@ -47,6 +47,7 @@ CHAPTERS = [
       ("The state space in time", "sim/hull/radiation/state_space_radiation.h"), ("The panel method marched along", "sim/hull/radiation/radiation_march.h")]),
     ("Lifting gear", "Massless elements that pull, push or rub.",
      [("Lines", "sim/lifting/line.h"), ("The unilateral spring-damper", "sim/lifting/unilateral.h"), ("Wires", "sim/lifting/wire.h"),
+      ("Hook block, slings, spreader", "sim/lifting/rigging.h"),
       ("Winch and drive profiles", "sim/lifting/profile.h"), ("The angle of a hanging line", "sim/lifting/plane_angle.h"),
       ("Taglines", "sim/lifting/tagline.h"), ("Contact", "sim/lifting/contact.h"), ("Catenaries", "sim/lifting/catenary.h"),
       ("Moorings", "sim/lifting/mooring.h"), ("Springs to the world", "sim/lifting/restoring.h"), ("Ballast", "sim/lifting/ballast.h"),

@@ -72,6 +72,7 @@ void read_document(Node root, Case& c) {
   Findings findings(c.file);
   TableReader reader(c.directory, findings);
   reader.read(case_table(), root, &c, {});
+  if (!findings.any()) expand_rigging(c, root, findings);
   check_names(c, root, reader.references(), findings);
   findings.throw_if_any();  // what follows takes every key and name for good
   check_lift(c, root, findings);
@@ -188,9 +189,9 @@ Case with_values(const Case& c, const std::vector<std::pair<std::string, double>
 
 CaseError located(const Case& c, const SpecificationError& error) {
   const Node& root = *c.document;
-  const std::string& entry = error.entry;
+  const std::string entry = written_entry(c, error.entry);
   Position position = position_of_key(root, entry, error.field);
-  const std::string prefix = entry + (error.field.empty() ? "" : "." + error.field) + ": ";
+  const std::string prefix = error.entry + (error.field.empty() ? "" : "." + error.field) + ": ";
   std::string sentence = error.what();
   if (sentence.compare(0, prefix.size(), prefix) == 0) sentence.erase(0, prefix.size());
   Findings findings(c.file);

@@ -11,6 +11,7 @@
 #include "problems/weather_spec.h"
 #include "results/limits.h"
 #include "sim/error.h"
+#include "sim/lifting/rigging.h"
 #include "sim/operation.h"
 #include "sim/specification.h"
 
@@ -97,7 +98,8 @@ struct Case {
   std::string project, revision, author, checked_by;  // head and foot of reports; empty = not given
   std::optional<double> north;  // rad, true north from +x, counter-clockwise; of reports and the replay
   std::string directory;        // of the case file; relative file names start here
-  Specification specification;
+  Specification specification;  // with the bodies and wires of the rigging
+  std::vector<RiggingSpec> rigging;
   std::vector<LimitSpec> limits;
   PlanSpec plan;
   TuneSpec tune;
@@ -124,8 +126,8 @@ Case read_case(const std::string& path, const std::vector<Override>& overrides =
 Case read_case_text(const std::string& text, const std::string& name, const std::string& directory,
                     const std::vector<Override>& overrides = {});
 
-/// Settings of `stillhook weather` without a case: defaults with `overrides` on top, all of them of the section weather.
-/// File names start at `directory`. Throws CaseError.
+/// Settings of `stillhook weather` without a case: defaults with `overrides` on top, all of them of the section
+/// weather. File names start at `directory`. Throws CaseError.
 WeatherSpec read_weather_settings(const std::string& directory, const std::vector<Override>& overrides);
 
 /// The document as used, as TOML text that can be read from any folder.

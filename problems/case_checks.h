@@ -10,6 +10,14 @@
 
 namespace stillhook {
 
+/// Adds the bodies and wires of the rigging to the specification, and refuses slings that do not reach, hang slack or lie
+/// too flat. The document keeps its entries.
+void expand_rigging(Case& c, const Node& root, Findings& findings);
+
+/// The entry of the document that an entry of the specification stands in: "rigging.hook.slings.port" for the wire that it
+/// became, else the same.
+std::string written_entry(const Case& c, const std::string& entry);
+
 /// Duplicate names across kinds, unknown names.
 void check_names(const Case& c, const Node& root, const std::vector<NamedThing>& references, Findings& findings);
 

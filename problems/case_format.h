@@ -22,6 +22,7 @@ const Table& hydrodynamics_table();
 const Table& rao_table();
 const Table& joint_table();
 const Table& drive_table();
+const Table& rigging_table();
 const Table& operation_table();
 const Table& pose_table();
 const Table& clearance_table();

@@ -287,6 +287,7 @@ const Table& case_table() {
       t.tables(kind.section, spec(kind.entries), "name", &element_table<Entry>, std::string(kind.title) + ".")
           .absent("none");
     });
+    t.tables("rigging", &S::rigging, "name", &rigging_table, "Hook blocks with slings.").absent("none");
     t.table("operation", spec(&Specification::operation), &operation_table, "The operation.").require();
     t.tables("poses", spec(&Specification::poses), "name", &pose_table, "Poses to report.").absent("none");
     t.tables("clearances", spec(&Specification::clearances), "name", &clearance_table, "Clearances to report.")

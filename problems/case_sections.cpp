@@ -23,6 +23,7 @@ std::vector<CaseSection> build_sections() {
       {"panel_method", true, true},
       {"joints", true, true},
       {"drives", true, true},
+      {"rigging", true, true},
       {"operation", true, true},
       {"poses", false, false},  // reported, not simulated
       {"clearances", true, true},

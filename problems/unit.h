@@ -19,6 +19,7 @@ inline constexpr double kPerMin = 1.0 / 60.0;
 inline const Unit one{"", "", 1.0};
 inline const Unit share{"share", "", 1.0};
 inline const Unit m{"m", "m", 1.0};
+inline const Unit mm{"mm", "mm", 1e-3};
 inline const Unit m2{"m2", "m2", 1.0};
 inline const Unit s{"s", "s", 1.0};
 inline const Unit h{"h", "h", 3600.0};

@@ -74,7 +74,8 @@ std::string basis_part(const ReportData& data) {
   }
   std::string out;
   if (const std::string sea = draw_sea_polar(data.specification, data.north); !sea.empty())
-    out += "<figure>" + sea +
+    out += "<figure><div class=\"scroll\" tabindex=\"0\">" + sea +
+           "</div>"
            "<figcaption>The sea by the direction its waves come from and by their period, seen from above; the vessel "
            "lies in the "
            "middle. Shade: spectral density, on a scale of square roots. Long-crested waves are drawn ten degrees "

@@ -54,7 +54,7 @@ double density_in_spectrum(const DirectionalSpectrum& d, double w, double b) {
   return (1.0 - part) * d.density[i * n + j] + part * d.density[(i + 1) * n + j];
 }
 
-/// rad/s, the end of the plot: a hundredth of the energy of no system lies beyond it.
+/// rad/s, the end of the plot: two hundredths of the energy of a system lie beyond it.
 double end_of(const SeaStateSpec& s) {
   double end = 0.0;
   switch (s.type) {
@@ -70,7 +70,7 @@ double end_of(const SeaStateSpec& s) {
       end = 2.5 * kTwoPi / sea_statistics(s).back().peak_period;
       break;
     default:
-      end = frequency_below(s, 0.99);
+      end = frequency_below(s, 0.98);
   }
   return end;
 }
@@ -203,6 +203,7 @@ std::string systems_svg(const SeaStateSpec& state, double end) {
   std::vector<SeaStatistics> all = sea_statistics(state);
   if (all.size() > 1) all.pop_back();  // the whole
   std::string out;
+  const bool marked = state.type != SeaType::spectrum;  // whose energy has no one place
   double y = 70.0;
   const double x = kCentreX + kRadius + 45.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -212,10 +213,11 @@ std::string systems_svg(const SeaStateSpec& state, double end) {
     const std::string number = std::to_string(i + 1);
     if (of.type == SeaType::regular)
       out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"#083f81\"/>", at.x, at.y);
-    out +=
-        svg_text(at.x, at.y + 4.0, "middle", number,
-                 " font-weight=\"700\" fill=\"#a4001d\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
-    out += svg_text(x, y, "start", number + "  " + s.name, " font-weight=\"600\"");
+    if (marked)
+      out += svg_text(
+          at.x, at.y + 4.0, "middle", number,
+          " font-weight=\"700\" fill=\"#a4001d\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
+    out += svg_text(x, y, "start", (marked ? number + "  " : "") + s.name, " font-weight=\"600\"");
     const std::string height = of.type == SeaType::regular
                                    ? fmt::format("H {} m, T", fixed_number(2.0 * of.amplitude, 2))
                                    : fmt::format("Hs {} m, Tp", fixed_number(s.significant_height, 2));

@@ -11,10 +11,12 @@ namespace stillhook {
 namespace {
 // A kept factorisation serves while each iteration shrinks the correction at least this much.
 constexpr double kSlowRate = 0.25;
+/// By which a rate grows with every step that stops after one correction.
+constexpr double kAgeing = 1.5;
 // Taken as the rate of a fresh factorisation until it is known.
 constexpr double kFreshRate = 0.1;
 // The rate of the last step, good as it was, is not taken to be better than this in the next.
-constexpr double kTrustedRate = 0.01;
+constexpr double kTrustedRate = 0.05;
 // Share of the largest multiplier that a further iteration may still change any of them. Accelerations converge before
 // multipliers do, and what is left of these comes back with the other sign in the next step: not judged, they kept a
 // saw-tooth of 400 kN m alive for minutes of a lift of 900 t, 1.6 kN m are left of it so.
@@ -88,7 +90,7 @@ void HhtStepper::start(SystemState& state) {
     solve_motion(near, glance < 0.0 ? before : after, lambda, F);
   }
   jerk_ = (after - before) / (2.0 * kGlance);
-  known_differences_ = prediction_order_ = 0;
+  known_differences_ = prediction_order_ = multiplier_order_ = 0;
   last_h_ = 0.0;
   factorised_h_ = 0.0;
   started_ = true;
@@ -101,37 +103,45 @@ void HhtStepper::predict(const SystemState& from, double h) {
   next_.lambda = from.lambda;
   if (h != differences_h_) return;
   const auto& [last, before] = differences_;
-  if (prediction_order_ >= 1) {
-    next_.acceleration += last.acceleration;
-    next_.lambda += last.lambda;
-  }
-  if (prediction_order_ >= 2) {
-    next_.acceleration += last.acceleration - before.acceleration;
-    next_.lambda += last.lambda - before.lambda;
-  }
+  if (prediction_order_ >= 1) next_.acceleration += last.acceleration;
+  if (prediction_order_ >= 2) next_.acceleration += last.acceleration - before.acceleration;
+  if (multiplier_order_ >= 1) next_.lambda += last.lambda;
+  if (multiplier_order_ >= 2) next_.lambda += last.lambda - before.lambda;
 }
 
-// After a step from `from` to next_: the order that would have predicted this step best serves for the next.
+namespace {
+
+/// The order of extrapolation, of those for which there are differences, that would have been off by least: by what the
+/// last step changed, by its change from the step before, and so on.
+int best_order(const Eigen::Ref<const VectorX>& step, const VectorX& last, const VectorX& before, int known) {
+  int best = 0;
+  double least = step.cwiseAbs().maxCoeff();
+  const auto consider = [&](int order, double error) {
+    if (error < least) least = error, best = order;
+  };
+  if (known >= 1) consider(1, (step - last).cwiseAbs().maxCoeff());
+  if (known >= 2) consider(2, (step - 2.0 * last + before).cwiseAbs().maxCoeff());
+  return best;
+}
+
+}  // namespace
+
+// After a step from `from` to next_: the orders that would have predicted this step best serve for the next.
+// Multipliers have one of their own: extrapolated with the accelerations' they would keep what alternates from step to
+// step alive.
 void HhtStepper::choose_prediction(const SystemState& from, double h) {
   if (h != differences_h_) known_differences_ = 0;
   differences_h_ = h;
   auto& [last, before] = differences_;
-  double least = std::numeric_limits<double>::infinity();
-  const auto consider = [&](int order, double error) {
-    if (error < least) least = error, prediction_order_ = order;
-  };
-  // What no order, the first and the second would have been off by.
-  delta_.head(from.acceleration.size()) = next_.acceleration - from.acceleration;
-  auto step = delta_.head(from.acceleration.size());
-  consider(0, step.cwiseAbs().maxCoeff());
-  if (known_differences_ >= 1) consider(1, (step - last.acceleration).cwiseAbs().maxCoeff());
-  if (known_differences_ >= 2)
-    consider(2, (step - 2.0 * last.acceleration + before.acceleration).cwiseAbs().maxCoeff());
+  const auto n = from.acceleration.size(), m = from.lambda.size();
+  delta_.head(n) = next_.acceleration - from.acceleration;
+  delta_.tail(m) = next_.lambda - from.lambda;
+  prediction_order_ = best_order(delta_.head(n), last.acceleration, before.acceleration, known_differences_);
+  multiplier_order_ = m > 0 ? best_order(delta_.tail(m), last.lambda, before.lambda, known_differences_) : 0;
   std::swap(last, before);
-  last.acceleration = step;
-  last.lambda = next_.lambda - from.lambda;
+  last.acceleration = delta_.head(n);
+  last.lambda = delta_.tail(m);
   known_differences_ = std::min(known_differences_ + 1, 2);
-  prediction_order_ = std::min(prediction_order_, known_differences_);
 }
 
 void HhtStepper::apply(const SystemState& from, double h) {
@@ -199,18 +209,22 @@ bool HhtStepper::iterate(const SystemState& from, double h, Renew renew) {
     if (!residual(h)) return false;
     if (renew == Renew::always || (renew == Renew::once && k == 0)) factorise(h);
     delta_ = lu_.solve(r_);
-    next_.acceleration -= delta_.head(n);
-    next_.lambda -= lambda_scale_ * delta_.tail(system_.constraints());
-    apply(from, h);
     int worst = 0;
     const double size = delta_.head(n).cwiseAbs().maxCoeff(&worst);  // m/s2, rad/s2
     failed_body_ = worst / 6;
+    next_.acceleration -= delta_.head(n);
+    next_.lambda -= lambda_scale_ * delta_.tail(system_.constraints());
+    apply(from, h);
     if (!std::isfinite(size) || beta_ * h * h * size > kRunaway) return false;
     rate_ = k > 0 ? size / last : std::max(rate_, kTrustedRate);
     if (size < kRounding * (reach_ / (beta_ * h * h) + next_.acceleration.cwiseAbs().maxCoeff())) return true;
     // What is left after this correction is about rate/(1 - rate) times it.
     const double left = rate_ / std::max(1.0 - rate_, 0.1);
-    if (size * left <= kStandardGravity * options_.tolerance && multipliers_settled(left)) return true;
+    if (size * left <= kStandardGravity * options_.tolerance && multipliers_settled(left)) {
+      // A rate that is not measured again becomes less certain as the lift moves away from where it was.
+      if (k == 0) rate_ = std::min(kAgeing * rate_, 1.0);
+      return true;
+    }
     if (renew != Renew::always && k > 0 && rate_ > kSlowRate) return false;
     last = size;
   }
@@ -235,7 +249,7 @@ void HhtStepper::follow_mass(SystemState& state) {
     state.acceleration = mass->ldlt().solve(*mass_ * state.acceleration).eval();
     jerk_.setZero();
     factorised_h_ = 0.0;
-    known_differences_ = prediction_order_ = 0;
+    known_differences_ = prediction_order_ = multiplier_order_ = 0;
   }
   mass_ = mass;
 }

@@ -83,7 +83,7 @@ class HhtStepper {
     VectorX acceleration, lambda;
   };
   std::array<Differences, 2> differences_;
-  int known_differences_ = 0, prediction_order_ = 0;
+  int known_differences_ = 0, prediction_order_ = 0, multiplier_order_ = 0;
   double differences_h_ = 0.0;  // s, the step that they belong to
   bool started_ = false;
   int failed_body_ = -1;

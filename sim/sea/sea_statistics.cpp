@@ -143,15 +143,18 @@ double peak_of_sum(const SeaStateSpec& sum) {
   return peak;
 }
 
-/// Of a record: the middle of the eleven neighbouring waves with the most energy.
+/// Of a record: the mean, by energy, of the eleven neighbouring waves with the most of it.
 double peak_of_waves(const std::vector<WaveComponent>& waves) {
   constexpr std::size_t kSide = 5;
   double largest = 0.0, peak = 0.0;
   for (std::size_t i = 0; i < waves.size(); ++i) {
-    double sum = 0.0;
-    for (std::size_t j = i > kSide ? i - kSide : 0; j <= std::min(i + kSide, waves.size() - 1); ++j)
-      sum += waves[j].amplitude * waves[j].amplitude;
-    if (sum > largest) largest = sum, peak = waves[i].frequency;
+    double sum = 0.0, moment = 0.0;
+    for (std::size_t j = i > kSide ? i - kSide : 0; j <= std::min(i + kSide, waves.size() - 1); ++j) {
+      const double energy = waves[j].amplitude * waves[j].amplitude;
+      sum += energy;
+      moment += energy * waves[j].frequency;
+    }
+    if (sum > largest) largest = sum, peak = moment / sum;
   }
   return peak;
 }

@@ -46,6 +46,7 @@ double si_of(const std::string& suffix) {
   static const std::map<std::string, double> factors = {{"", 1},
                                                         {"share", 1},
                                                         {"m", 1},
+                                                        {"mm", 1e-3},
                                                         {"m2", 1},
                                                         {"s", 1},
                                                         {"h", 3600},
@@ -85,6 +86,7 @@ std::string unit_in(const std::string& key) {
   for (std::size_t at = key.find('_'); at != std::string::npos; at = key.find('_', at + 1)) {
     const std::string tail = key.substr(at + 1);
     static const std::set<std::string> known = {"m",
+                                                "mm",
                                                 "m2",
                                                 "s",
                                                 "h",

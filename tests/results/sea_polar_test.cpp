@@ -50,8 +50,8 @@ Told told(const SeaStateSpec& state) {
 }  // namespace
 
 TEST_CASE("the cells of the polar plot hold the energy of the sea about its heading", "[sea_polar]") {
-  // The plot ends where a hundredth of the energy is left: half a per cent of the height. Means over cells at four
-  // places and the coarse sectors cost up to as much again.
+  // The plot ends where two hundredths of the energy are left: a per cent of the height. Means over cells at four places
+  // and the coarse sectors cost up to as much again.
   SECTION("spread, by either law, and long-crested") {
     SeaStateSpec s = jonswap("sea", 2.0, 8.0, 130.0 * kDegree);
     s.gamma = 3.3;
@@ -60,7 +60,7 @@ TEST_CASE("the cells of the polar plot hold the energy of the sea about its head
       s.spreading = n;
       s.spreading_2s = two_s;
       const Told t = told(s);
-      CHECK(t.height == Approx(2.0).epsilon(0.01));
+      CHECK(t.height == Approx(2.0).epsilon(0.02));
       CHECK(t.heading == Approx(130.0 * kDegree).margin(1e-3));
       CHECK(t.sector == 13);
     }
@@ -71,7 +71,7 @@ TEST_CASE("the cells of the polar plot hold the energy of the sea about its head
     sum.type = Type::sum;
     sum.parts = {jonswap("swell", 2.0, 14.0, 30.0 * kDegree), jonswap("wind", 1.5, 6.0, 120.0 * kDegree)};
     const Told t = told(sum);
-    CHECK(t.height == Approx(2.5).epsilon(0.01));
+    CHECK(t.height == Approx(2.5).epsilon(0.02));
     CHECK(t.sector == 3);
     // The swell's energy is 4 to 2.25, at right angles.
     CHECK(t.heading == Approx(30.0 * kDegree + std::atan2(2.25, 4.0)).margin(0.02));
@@ -91,7 +91,7 @@ TEST_CASE("the cells of the polar plot hold the energy of the sea about its head
     s.spectrum = d;
     const SeaStatistics truth = sea_statistics(s).back();
     const Told t = told(s);
-    CHECK(t.height == Approx(truth.significant_height).epsilon(0.01));
+    CHECK(t.height == Approx(truth.significant_height).epsilon(0.02));
     CHECK(t.heading == Approx(truth.heading).margin(0.01));
   }
 }

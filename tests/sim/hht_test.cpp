@@ -252,9 +252,10 @@ TEST_CASE("hht: constraints hold, energy neither grows nor fades beyond the meth
       const double E = m.system.kinetic_energy(m.state) + m.system.potential_energy(m.state, stepper.workspace());
       drift = std::max(drift, std::abs(E - E0) / swing);
     }
-    CAPTURE(alpha, rows, rates, drift);
-    // Positions are solved for: beta h^2 g tolerance = 6e-13 m, and the rounding of coordinates of a few metres.
-    CHECK(rows < 2e-12);
+    CAPTURE(alpha, 1e12 * rows, rates, drift);
+    // Positions are solved for: beta h^2 g tolerance = 6e-13 m. What an iteration leaves is judged by the last ratio of
+    // two corrections; with a kept matrix some directions shrink more slowly, here by up to seven times that (4e-12 m).
+    CHECK(rows < 6e-12);
     // Velocities follow at second order: h^2 times a third rate of about 50 m/s3.
     CHECK(rates < 1e-3);
     // h^2 omega^2 / 12 about 1e-4 for the exchange of the two energies.

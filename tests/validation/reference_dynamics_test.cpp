@@ -16,6 +16,7 @@ namespace {
 const RunResult& run_with(const std::string& changes) {
   static const std::map<std::string, std::vector<Override>> kChanges = {
       {"benign", {}},
+      {"benign, no taglines", {{"taglines.*.active", "false"}}},
       {"fine", {{"solver.time_step_s", "0.025"}}},
       {"calm", {{"sea.states.paper_table1.amplitude_m", "1e-6"}}},
       {"calm, no taglines", {{"sea.states.paper_table1.amplitude_m", "1e-6"}, {"taglines.*.active", "false"}}},
@@ -91,22 +92,30 @@ TEST_CASE("reference lift in motion: 4,903 kN per side at rest, DAF 1.01 to 1.05
   CHECK(metric(run_with("calm"), "daf_total") < 1.01);
 }
 
-TEST_CASE("reference lift in motion: hanging freely in the benign wave, the hook load is that of the linear response",
+TEST_CASE("reference lift in motion: hanging freely without taglines, the hook load is that of the linear response",
           "[slow]") {
-  // What the hook load has more than the weight: m w^2 z of the load's heave, by the linear response about the pose at the
-  // end of the phase. The taglines' steady pull is not in it: 3e-4 of the weight a line at these angles.
+  // What the hook load has more than the weight: m w^2 z of the load's heave, by the linear response about the poses at
+  // the two ends of the phase, of which one is the worse. The taglines are off: their pull adds up to 0.5 % of the
+  // weight, as much again as there is. Found within 1 % while backstays and booms turn; 6 % more in hoist_up, which
+  // begins right after the last touch.
   const Case c = reference_case();
   const ReferenceLift lift(c.specification);
   const Operation operation = build_operation(lift.model);
-  const SeaStateSpec& sea = *std::ranges::find(c.specification.sea.states, c.specification.sea.active, &SeaStateSpec::name);
+  const SeaStateSpec& sea =
+      *std::ranges::find(c.specification.sea.states, c.specification.sea.active, &SeaStateSpec::name);
   for (const char* phase : {"hoist_up", "rotate_backstays", "rotate_booms"}) {
     const auto at = std::ranges::find(operation.phases, phase, &Phase::name) - operation.phases.begin();
-    const LinearResponse linear(lift.model, operation.equilibria[static_cast<std::size_t>(at) + 1]);
-    const auto motion = linear.motion(linear.at(sea.frequency, sea.heading), lift.model.body_index("load"), Vector3::Zero());
-    const double expected = sea.frequency * sea.frequency * sea.amplitude * std::abs(motion[2]) / 9.80665;
-    const double found = hook_load_factor(run_with("benign"), phase) - 1.0;
+    double expected = 0.0;
+    for (const std::ptrdiff_t pose : {at, at + 1}) {
+      if (pose == at && std::string(phase) == "hoist_up") continue;  // it begins where the load may still touch
+      const LinearResponse linear(lift.model, operation.equilibria[static_cast<std::size_t>(pose)]);
+      const auto motion =
+          linear.motion(linear.at(sea.frequency, sea.heading), lift.model.body_index("load"), Vector3::Zero());
+      expected = std::max(expected, sea.frequency * sea.frequency * sea.amplitude * std::abs(motion[2]) / 9.80665);
+    }
+    const double found = hook_load_factor(run_with("benign, no taglines"), phase) - 1.0;
     CAPTURE(phase, expected, found);
-    CHECK(found == Approx(expected).epsilon(0.15));
+    CHECK(found == Approx(expected).epsilon(std::string(phase) == "hoist_up" ? 0.08 : 0.02));
   }
 }
 

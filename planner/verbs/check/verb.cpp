@@ -7,6 +7,7 @@
 #include "planner/cli/verb_run.h"
 #include "planner/run.h"
 #include "planner/verbs/check/pose_files.h"
+#include "planner/verbs/check/rigging_table.h"
 #include "planner/verbs/check/static_tables.h"
 #include "planner/verbs/verbs.h"
 #include "planner/version.h"
@@ -79,6 +80,7 @@ class CheckVerb final : public Verb {
     std::vector<std::string> drawings;
     if (!draw_.empty()) drawings = write_pose_drawings(prepared.model, prepared.operation, draw_, options.force);
     std::vector<ReportTable> tables = static_tables(prepared.model, prepared.operation);
+    for (ReportTable& table : rigging_tables(c)) tables.push_back(std::move(table));
     tables.push_back(phase_table(prepared.model, prepared.operation));
     if (options.json) fmt::print("{}", check_json(c, prepared, verb.date(), drawings, tables));
     if (verb.prints()) print_check(c, prepared, drawings, tables);

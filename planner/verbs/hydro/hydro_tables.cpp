@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kNegligibleCoupling = 5e-3;
 constexpr double kFarBeyond = 1e3;  // rad/s: the margin is that of infinite frequency
+constexpr double kSlowest = 1e-3;   // rad/s: what is slower than 100 min has no period worth a number
 constexpr int kSampled = 6;          // frequencies of the table of pairs
 constexpr int kExcitationRows = 14;  // frequencies of the table of X
 
@@ -31,9 +32,9 @@ std::vector<int> spread(int n, int wanted) {
   return chosen;
 }
 
-/// The period of a frequency, s; "-" at zero.
+/// The period of a frequency, s; "-" at zero and next to it.
 std::string period_text(double frequency) {
-  return frequency > 0.0 ? cell(2.0 * std::numbers::pi / frequency, 1) : "-";
+  return frequency > kSlowest ? cell(2.0 * std::numbers::pi / frequency, 1) : "-";
 }
 
 /// "31.4 to 3.1 s" of a band in rad/s.
