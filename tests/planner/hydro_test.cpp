@@ -83,6 +83,39 @@ TEST_CASE("hydro asks for no operation in the case", "[hydro]") {
   CHECK_NOTHROW(read_case(folder / "out/case.toml"));
 }
 
+TEST_CASE("hydro computes over the bed of the case, and refuses a gap that panels cannot follow", "[hydro]") {
+  const Folder folder;
+  const std::string file = write_case(folder, "kind = \"panels\"", "refinement = 0.5\nfit_tolerance = 0.05");
+  const Result shallow = run_hydro(folder, {"hydro", file, "--set", "sea.depth_m=8", "--out", "shallow", "--json"});
+  INFO(shallow.err);
+  REQUIRE(shallow.code == 0);
+  const HydrodynamicCoefficients over = read_coefficient_file(folder / "shallow/coefficients-barge.csv");
+  CHECK(over.depth == 8.0);
+  CHECK_THAT(over.description, Catch::Contains("water 8 m deep"));
+  CHECK(over.frequency.front().frequency == Approx(0.5));  // no A(0)
+  // As deep as its own keys say, whatever the moorings' water.
+  const Result deep =
+      run_hydro(folder, {"hydro", file, "--set", "sea.depth_m=8", "--set", "sea.deep_waves=true", "--out", "deep"});
+  REQUIRE(deep.code == 0);
+  CHECK(std::isinf(read_coefficient_file(folder / "deep/coefficients-barge.csv").depth));
+  // BEMIO's file says the depth; a case of another depth does not take it, one of the same does.
+  const std::string database =
+      "kind = \"database\", coefficient_file = \"shallow/coefficients-barge.h5\", "
+      "database_origin_m = [0.0, 0.0, 0.0]";
+  const std::string read = write_case(folder, database);
+  const Result same = run_hydro(folder, {"hydro", read, "--set", "sea.depth_m=8.3", "--out", "same"});
+  INFO(same.err);
+  CHECK(same.code == 0);
+  const Result other = run_hydro(folder, {"hydro", read, "--set", "sea.depth_m=9", "--out", "other"});
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Catch::Contains("depth of 8 m") && Catch::Contains("sea.depth_m = 9 m"));
+  // 2 m of draft need 2.2 m of water.
+  const Result stuck = run_hydro(folder, {"hydro", write_case(folder), "--set", "sea.depth_m=2.15", "--out", "stuck"});
+  CHECK(stuck.code == 2);
+  CHECK_THAT(stuck.err, Catch::Contains("sea.depth_m = 2.15 m") && Catch::Contains("150 mm above the bed") &&
+                            Catch::Contains("a depth of 2.2 m") && Catch::Contains("sea.deep_waves"));
+}
+
 TEST_CASE("hydro computes, writes every file, and takes the second run from the cache", "[hydro]") {
   const Folder folder;
   // Panels as coarse as these leave ripples in K(1,1) that a state space meets to 3 %, not to the 2 % of the default.
