@@ -72,7 +72,11 @@ void read_document(Node root, Case& c) {
   Findings findings(c.file);
   TableReader reader(c.directory, findings);
   reader.read(case_table(), root, &c, {});
-  if (!findings.any()) expand_rigging(c, root, findings);
+  if (!c.rigging.empty()) {
+    findings.throw_if_any();
+    expand_rigging(c, root, findings);
+    findings.throw_if_any();  // without its bodies and wires all that names them would be told too
+  }
   check_names(c, root, reader.references(), findings);
   findings.throw_if_any();  // what follows takes every key and name for good
   check_lift(c, root, findings);

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "problems/case_checks.h"
 #include "problems/case_format.h"
@@ -74,7 +75,13 @@ class RiggingCheck {
 
   /// True if bodies and wires can be made of it.
   bool counts() {
-    if (!entry_named(spec_.bodies, rigging_.load)) return false;  // told with the other names
+    if (!entry_named(spec_.bodies, rigging_.load)) {
+      std::vector<std::string> bodies;
+      for (const BodySpec& body : spec_.bodies) bodies.push_back(body.name);
+      report(entry_, "load",
+             fmt::format("there is no body \"{}\"{}", rigging_.load, did_you_mean(rigging_.load, bodies)));
+      return false;
+    }
     const bool spreader = !rigging_.spreader.name.empty();
     few(rigging_.slings, entry_, "slings");
     lengths(rigging_.slings, entry_ + ".slings.");
@@ -88,6 +95,24 @@ class RiggingCheck {
                spreader
                    ? "is needed: the upper end of a sling from the spreader"
                    : "belongs to a sling from a spreader, and there is none: without it the sling hangs from the hook");
+    return good_;
+  }
+
+  /// True if no body or wire of `spec` has a name that this would give to another.
+  bool names_are_free(const Specification& spec) {
+    std::set<std::string> bodies, wires;
+    for (const BodySpec& body : spec.bodies) bodies.insert(body.name);
+    for (const WireSpec& wire : spec.wires) wires.insert(wire.name);
+    const auto claim = [&](std::set<std::string>& taken, const std::string& name, const std::string& at,
+                           const char* noun) {
+      if (!taken.insert(name).second)
+        report(at, "name", fmt::format("\"{}\" is the name of another {} already", name, noun));
+    };
+    claim(bodies, rigging_.name, entry_, "body");
+    if (!rigging_.spreader.name.empty()) claim(bodies, rigging_.spreader.name, entry_ + ".spreader", "body");
+    for (const SlingSpec& s : rigging_.spreader.slings)
+      claim(wires, s.name, entry_ + ".spreader.slings." + s.name, "wire");
+    for (const SlingSpec& s : rigging_.slings) claim(wires, s.name, entry_ + ".slings." + s.name, "wire");
     return good_;
   }
 
@@ -195,7 +220,7 @@ void expand_rigging(Case& c, const Node& root, Findings& findings) {
   const Specification given = c.specification;
   for (const RiggingSpec& rigging : c.rigging) {
     RiggingCheck check(rigging, given, root, findings);
-    if (!check.counts()) continue;
+    if (!check.counts() || !check.names_are_free(c.specification)) continue;
     try {
       check.hanging();
       add_rigging(rigging, c.specification);

@@ -114,7 +114,8 @@ TEST_CASE("rigging that cannot be is refused with its key", "[rigging]") {
   for (std::size_t at; (at = elastic.find("axial_stiffness_kN = 1.0e8 }")) != std::string::npos;)
     elastic.replace(at, std::string("axial_stiffness_kN = 1.0e8").size(), soft);
   CHECK(refusal(elastic).empty());
-  // Slings stretch by 9 cm under the load. One that is four times that too long hangs slack, and so does the one opposite.
+  // Slings stretch by 9 cm under the load. One that is four times that too long hangs slack, and so does the one
+  // opposite.
   const std::string b = "{ name = \"b\", to_m = [-1.0, 1.0, 0.0], length_m = 12.083045973594572";
   const std::string slack = replaced(elastic, b, b + ", length_error_mm = 500.0");
   CHECK_THAT(refusal(slack),
@@ -131,6 +132,11 @@ TEST_CASE("rigging that cannot be is refused with its key", "[rigging]") {
   CHECK_THAT(refusal(flat), Contains("deg to the horizontal, at least 45.0 by sling_angle_min_deg"));
   CHECK(
       refusal(replaced(flat, "load = \"load\"\nblock", "load = \"load\"\nsling_angle_min_deg = 30.0\nblock")).empty());
+  // Names that others have: two bodies of one name would be one in every result.
+  CHECK_THAT(refusal(replaced(good, "name = \"hook\"\nload", "name = \"load\"\nload")),
+             Contains("[rigging.load] name: \"load\" is the name of another body already"));
+  CHECK_THAT(refusal(replaced(good, "name = \"c\"", "name = \"fall\"")),
+             Contains("[rigging.hook.slings.fall] name: \"fall\" is the name of another wire already"));
   CHECK_THAT(refusal(replaced(good, "load = \"load\"\nblock", "load = \"laod\"\nblock")),
              Contains("there is no body \"laod\", did you mean \"load\"?"));
   CHECK_THAT(refusal(replaced(good, "to_m = [1.0, 1.0, 0.0],", "to_m = [1.0, 1.0, 0.0], from_m = [0.0, 0.0, 0.0],")),
