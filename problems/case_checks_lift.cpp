@@ -32,6 +32,10 @@ class LiftCheck {
     for (const ClearanceSpec& clearance : spec_.clearances)
       if (clearance.a.body == clearance.b.body)
         report("clearances." + clearance.name, "b.body", "is the same body as that of a");
+    for (const CraneCurveSpec& curve : spec_.crane_curves) {
+      EntryCheck check(spec_, root_, findings_, "crane_curves." + curve.name);
+      check_crane_curve(curve, check);
+    }
     check_wind();
     check_panel_method();
     check_solver();

@@ -26,6 +26,7 @@ const Table& rigging_table();
 const Table& operation_table();
 const Table& pose_table();
 const Table& clearance_table();
+const Table& crane_curve_table();
 const Table& solver_table();
 const Table& panel_method_table();
 const Table& limit_table();

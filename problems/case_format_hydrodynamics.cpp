@@ -67,6 +67,8 @@ void add_self_check_tolerances(TableOf<PanelMethodSpec>& t) {
   tolerance("negative_damping_tolerance", &T::negative_damping, "Self-checks: damping below zero, of its largest.");
   tolerance("kramers_kronig_tolerance", &T::kramers_kronig,
             "Self-check: A and B against those of the retardation functions, of the largest.");
+  tolerance("coupled_kramers_kronig_tolerance", &T::coupled_kramers_kronig,
+            "The same of coupled hulls: a fit rounds the top of the gap's resonance.");
   tolerance("kernel_tail_tolerance", &T::kernel_tail, "Self-check: retardation functions at their end, of their largest.");
   tolerance("haskind_tolerance", &T::haskind, "Self-check: B against the energy of the waves, one hull.");
   tolerance("coupled_haskind_tolerance", &T::coupled_haskind, "The same of coupled hulls, whose gap takes energy too.");

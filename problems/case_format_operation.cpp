@@ -292,6 +292,9 @@ const Table& case_table() {
     t.tables("poses", spec(&Specification::poses), "name", &pose_table, "Poses to report.").absent("none");
     t.tables("clearances", spec(&Specification::clearances), "name", &clearance_table, "Clearances to report.")
         .absent("none");
+    t.tables("crane_curves", spec(&Specification::crane_curves), "name", &crane_curve_table,
+             "What the cranes may lift over their radius.")
+        .absent("none");
     t.map("limits", &S::limits, &LimitSpec::metric, &limit_table, "Limits, by metric.").absent("none");
     t.table("solver", spec(&Specification::solver), &solver_table, "Time stepping.").absent("defaults");
     t.table("plan", &S::plan, &plan_table, "The search.").absent("no search");

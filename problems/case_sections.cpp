@@ -27,6 +27,7 @@ std::vector<CaseSection> build_sections() {
       {"operation", true, true},
       {"poses", false, false},  // reported, not simulated
       {"clearances", true, true},
+      {"crane_curves", false, true},
       {"limits", false, true},
       {"solver", false, true},
       {"plan", false, true},  // but for its budget, see store_identity()

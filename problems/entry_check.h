@@ -33,6 +33,9 @@ class EntryCheck {
   std::string entry_;
 };
 
+/// The rules of one capacity curve of a crane.
+void check_crane_curve(const CraneCurveSpec& curve, EntryCheck& check);
+
 /// The entry of that name, nullptr if there is none.
 template <class Entries>
 auto entry_named(const Entries& entries, const std::string& name) -> decltype(&entries.front()) {

@@ -23,9 +23,11 @@ const std::vector<Missing>& missing_things() {
        "stillhook does not model winches at constant tension yet, but for taglines with gains of 0"},
       {{"dp", "dynamic_positioning", "thruster", "thrusters"},
        "stillhook does not model dynamic positioning yet: soft moorings hold a vessel instead"},
-      {{"crane", "cranes", "crane_curve", "capacity_curve", "load_chart", "derating"},
-       "stillhook does not model a crane as one thing or its capacity curve yet: a crane is a body with joints, drives "
-       "and wires, and limits take its hook load"},
+      {{"cranes"},
+       "stillhook does not model a crane as one thing yet: a crane is a body with joints, drives and wires, and its "
+       "capacity over the radius is an entry of [[crane_curves]]"},
+      {{"capacity_curve", "load_chart", "derating"},
+       "a crane's capacity over its radius is an entry of [[crane_curves]], one for each height of sea"},
       {{"slam", "slamming", "slamming_coefficient"}, "stillhook does not model slamming yet"},
       {{"drag", "morison", "cd"},
        "stillhook does not model drag on the water's relative velocity yet: hydrodynamics of kind \"constant\" have "

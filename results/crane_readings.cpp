@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/crane_use.h"
 #include "results/html.h"
 #include "sim/crane_parts.h"
 #include "sim/lifting/wire.h"
@@ -13,7 +14,6 @@
 namespace stillhook {
 namespace {
 
-constexpr double kUprightAxis = 0.7;                        // an axis closer to the vertical than 45 deg slews
 constexpr double kSameRadius = 0.25, kSameElevation = 0.5;  // m and deg: booms no further apart go together
 
 /// Where a point of a body goes; empty if the body was not recorded.
@@ -36,20 +36,6 @@ const JointSpec* joint_below(const Specification& s, const std::string& body) {
   return found == s.joints.end() ? nullptr : &*found;
 }
 
-/// The joint that the boom slews about: the first upright one on the way down to its vessel.
-const JointSpec* slewing_joint(const Specification& s, const std::string& boom) {
-  std::string body = boom;
-  for (std::size_t step = 0; step <= s.joints.size(); ++step) {
-    const JointSpec* joint = joint_below(s, body);
-    if (!joint) return nullptr;
-    if (joint->type == JointSpec::Type::revolute && joint->axis.norm() > 0.0 &&
-        std::abs(joint->axis.normalized().z()) > kUprightAxis)
-      return joint;
-    body = joint->parent;
-  }
-  return nullptr;
-}
-
 struct Boom {
   std::string name, vessel;
   std::vector<std::string> wires;
@@ -69,11 +55,11 @@ Boom boom_along(const RunView& view, const std::string& name) {
   Boom boom{name, vessel_under(s, name), hoist_wires_of(s, name), {}, {}};
   const JointSpec* hinge = joint_below(s, name);
   if (!hinge) return boom;
-  const JointSpec* slewing = slewing_joint(s, name);
-  const JointSpec* about = slewing ? slewing : hinge;
+  const std::optional<BoomAxis> axis = boom_axis(s, name);
+  if (!axis) return boom;
   const std::vector<Vector3> ends = path_of(view, name, mean_wire_end(s, name)),
                              hinges = path_of(view, hinge->parent, hinge->point_on_parent),
-                             axes = path_of(view, about->parent, about->point_on_parent);
+                             axes = path_of(view, axis->body, axis->point);
   if (ends.empty() || hinges.size() != ends.size() || axes.size() != ends.size()) return boom;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     boom.radius.push_back((ends[i] - axes[i]).head<2>().norm());
@@ -130,6 +116,11 @@ std::vector<CraneReading> crane_readings(const RunView& view) {
         several ? " " + readable_name(beside > 1 || crane.vessel == "world" ? crane.name : crane.vessel) : "";
     if (several) add("hook load" + of, "t", 0, sum_of_tensions(view, crane.wires));
     add("radius" + of, "m", 1, std::move(crane.radius));
+    for (const std::string& name : {crane.name, crane.vessel}) {
+      std::vector<double> use = crane_use(view, name).use;
+      for (double& share : use) share *= 100.0;
+      add("crane use" + of, "%", 0, std::move(use));
+    }
     add("boom angle" + of, "°", 1, std::move(crane.elevation));
   }
   return out;

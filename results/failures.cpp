@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/crane_use.h"
 #include "results/deck_corners.h"
 #include "sim/crane_parts.h"
 #include "sim/lifting/wire.h"
@@ -105,6 +106,30 @@ void find_lost_load(const RunView& view, std::vector<Failure>& failures) {
   }
 }
 
+/// A crane that carries where its curve says nothing, or in a sea that none of its curves holds in.
+void find_outside_curve(const RunView& view, std::vector<Failure>& failures) {
+  const Specification& s = view.specification();
+  for (const std::string& crane : cranes_with_curves(s)) {
+    const CraneUse use = crane_use(view, crane);
+    if (!use.curve) {
+      failures.push_back({view.start(), fmt::format("{} has no capacity curve for a sea of {:.2f} m: the crane may not "
+                                                    "work in it",
+                                                    crane, curve_sea_height(s))});
+      continue;
+    }
+    const double most = use.load.empty() ? 0.0 : *std::max_element(use.load.begin(), use.load.end());
+    for (std::size_t i = 0; i < use.radius.size(); ++i) {
+      if (!(use.load[i] > kCarries * most) || std::isfinite(capacity_at(*use.curve, use.radius[i]))) continue;
+      const double t = view.run().time[i];
+      failures.push_back({t, fmt::format("{} carries {:.0f} t at a radius of {:.1f} m {}, outside its capacity curve {} "
+                                         "of {:.1f} to {:.1f} m",
+                                         crane, use.load[i] / (1e3 * kStandardGravity), use.radius[i], at(view, t),
+                                         use.curve->name, use.curve->radius.front(), use.curve->radius.back())});
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Failure> failures_of(const RunView& view) {
@@ -113,6 +138,7 @@ std::vector<Failure> failures_of(const RunView& view) {
   find_capsized(view, failures);
   find_flooded(view, failures);
   find_lost_load(view, failures);
+  find_outside_curve(view, failures);
   std::stable_sort(failures.begin(), failures.end(),
                    [](const Failure& a, const Failure& b) { return a.time < b.time; });
   return failures;

@@ -1,5 +1,5 @@
 // What a simulation can run on through but no lift can: a wire above its breaking load, a vessel that capsizes or has
-// no freeboard, a load that has swung out of what a crane holds. Such a run fails whatever its limits say.
+// no freeboard, a load that has swung out of what a crane holds, a crane outside its capacity curve. Such a run fails whatever its limits say.
 #pragma once
 
 #include <string>

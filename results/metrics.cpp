@@ -165,7 +165,7 @@ const std::vector<std::vector<MetricRow>>& metric_families() {
   static const std::vector<std::vector<MetricRow>> families = [] {
     std::vector<std::vector<MetricRow>> all = {operation_metrics(), load_metrics()};
     for_each_element_kind([&](const auto& kind) { all.push_back(metric_rows(kind.tag())); });
-    for (auto& family : {set_down_metrics(), vessel_metrics(), clearance_metrics()}) all.push_back(family);
+    for (auto& family : {set_down_metrics(), vessel_metrics(), crane_curve_metrics(), clearance_metrics()}) all.push_back(family);
     return all;
   }();
   return families;

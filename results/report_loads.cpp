@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/crane_chart.h"
 #include "results/html.h"
 #include "results/load_path.h"
 #include "results/report_parts.h"
@@ -137,6 +138,21 @@ std::string offset_table(const ReportData& data, const RunView& view) {
          "under Metrics.</small></p>";
 }
 
+/// The lift's path over the capacity curve of each crane that has one.
+std::string curve_figures(const ReportData& data, const RunView& view) {
+  std::string out;
+  for (const std::string& crane : cranes_with_curves(data.specification)) {
+    const std::string drawing = draw_crane_curve(view, crane);
+    if (drawing.empty()) continue;
+    out += fmt::format(
+        "<figure><div class=\"scroll\" tabindex=\"0\">{}</div><figcaption>The hook load of {} at its radius, through "
+        "the whole lift, under what its curve allows; circled: the largest use, {} %.</figcaption></figure>",
+        drawing, escape_html(readable_name(crane)),
+        fixed_number(100.0 * data.metrics.value("crane_utilisation_max." + crane), 1));
+  }
+  return out.empty() ? out : "<h3>Capacity over radius</h3>" + out;
+}
+
 }  // namespace
 
 double tabulated_daf(LiftPlace place, double weight, double static_hook_load) {
@@ -175,11 +191,13 @@ std::string loads_part(const ReportData& data, const RunView& view) {
         "phases in calm water. Winch limits of the falls together {} t, breaking loads {} t. {}</p>",
         tonnes(weight), tonnes(hook_load), tonnes(sum_of(wires, &WireSpec::tension_max)),
         tonnes(sum_of(wires, &WireSpec::breaking_load)),
-        "The case gives no capacity curve of the crane; compare the dynamic hook load with it at the radius of each "
-        "phase.");
+        data.specification.crane_curves.empty()
+            ? "The case gives no capacity curve of the crane; compare the dynamic hook load with it at the radius of "
+              "each phase."
+            : "");
     out += daf_table(data, weight, hook_load) + "<h3>By phase</h3>" + phase_table(view, wires);
   }
-  return out + offset_table(data, view);
+  return out + curve_figures(data, view) + offset_table(data, view);
 }
 
 }  // namespace stillhook

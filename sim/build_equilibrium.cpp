@@ -64,7 +64,7 @@ void ModelBuilder::settle() {
   const EquilibriumReport report = try_to_settle();
   if (report.converged) return;
   refuse_what_cannot_float();
-  refuse_without_equilibrium(report, "bodies." + report.worst_body);
+  refuse_without_equilibrium(system(), state(), report, "bodies." + report.worst_body);
 }
 
 // The usual reason for having no equilibrium deserves its own sentence: more weight than the hulls can carry.

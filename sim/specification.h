@@ -11,6 +11,7 @@
 #include "sim/element_kind.h"
 #include "sim/environment/wind_spec.h"
 #include "sim/error.h"
+#include "sim/lifting/crane_curve.h"
 #include "sim/lifting/gear_spec.h"
 #include "sim/multibody/joint_spec.h"
 #include "sim/operation_spec.h"
@@ -46,6 +47,7 @@ struct Specification {
   OperationSpec operation;
   std::vector<PoseSpec> poses;
   std::vector<ClearanceSpec> clearances;
+  std::vector<CraneCurveSpec> crane_curves;
   SolverSpec solver;
   std::vector<OwnElement> own_elements;  // of a program that embeds the library; never of a case file
 };

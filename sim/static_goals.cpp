@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "sim/missed_surface.h"
 #include "sim/multibody/drive_path.h"
 #include "sim/spatial/constants.h"
 
@@ -179,7 +180,8 @@ class GoalSearch {
                              "cannot bring the " + describe(goal.coordinate) + " to " +
                                  shown(model_, goal.coordinate, goal.value) + " with drive '" +
                                  model_.specification().drives[goal.drive].name + "': the nearest found is " +
-                                 shown(model_, goal.coordinate, best_f_[worst] + goal.value) + why);
+                                 shown(model_, goal.coordinate, best_f_[worst] + goal.value) + why +
+                                 missed_surface(model_.system(), state_));
   }
 
   const Model& model_;
@@ -202,7 +204,8 @@ void reach_goals(const Model& model, SystemState& state, const std::vector<Stati
   if (!goals.empty()) GoalSearch(model, state, goals, entry).run();
 }
 
-void refuse_without_equilibrium(const EquilibriumReport& report, const std::string& entry) {
+void refuse_without_equilibrium(const MultibodySystem& system, const SystemState& state,
+                                const EquilibriumReport& report, const std::string& entry) {
   std::string sentence = "no stable static equilibrium found: ";
   if (!report.motion.empty()) {
     sentence += report.motion + " goes on moving";
@@ -211,7 +214,7 @@ void refuse_without_equilibrium(const EquilibriumReport& report, const std::stri
     std::snprintf(text, sizeof text, "%.6g", report.residual);
     sentence += "'" + report.worst_body + "' is out of balance by " + text + " of the largest weight";
   }
-  throw SpecificationError(entry, "", sentence + "; check that everything floats, hangs or stands");
+  throw SpecificationError(entry, "", sentence + "; check that everything floats, hangs or stands" + missed_surface(system, state));
 }
 
 }  // namespace stillhook

@@ -16,6 +16,8 @@ void reach_goals(const Model& model, SystemState& state, const std::vector<Stati
                  const std::string& entry);
 
 /// Throws the SpecificationError of a lift that has no stable equilibrium.
-[[noreturn]] void refuse_without_equilibrium(const EquilibriumReport& report, const std::string& entry);
+/// `state`: where the search for one ended.
+[[noreturn]] void refuse_without_equilibrium(const MultibodySystem& system, const SystemState& state,
+                                             const EquilibriumReport& report, const std::string& entry);
 
 }  // namespace stillhook

@@ -36,7 +36,7 @@ void solve_static(const Model& model, SystemState& state, const std::vector<Stat
   const double t = state.t;
   state.t = kStillWater;
   const EquilibriumReport report = settle_stably(model.system(), state, close);
-  if (!report.converged) refuse_without_equilibrium(report, entry);
+  if (!report.converged) refuse_without_equilibrium(model.system(), state, report, entry);
   reach_goals(model, state, goals, entry);
   state.t = t;
 }
@@ -46,7 +46,7 @@ void move_static(const Model& model, SystemState& state, const std::vector<Drive
   const double t = state.t;
   state.t = kStillWater;
   const EquilibriumReport report = follow_drives(model.system(), state, to);
-  if (!report.converged) refuse_without_equilibrium(report, entry);
+  if (!report.converged) refuse_without_equilibrium(model.system(), state, report, entry);
   reach_goals(model, state, goals, entry);
   state.t = t;
 }

@@ -60,6 +60,7 @@ std::vector<MetricRow> contact_metrics();
 std::vector<MetricRow> lift_off_metrics();
 std::vector<MetricRow> set_down_metrics();
 std::vector<MetricRow> vessel_metrics();
+std::vector<MetricRow> crane_curve_metrics();
 std::vector<MetricRow> clearance_metrics();
 
 }  // namespace stillhook

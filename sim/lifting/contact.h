@@ -83,6 +83,15 @@ class Contact final : public ForceElement {
   std::vector<Channel> channels() const override;
   void measure(const Instant& now, Memory m, std::span<double> out) const override;
 
+  /// The points that lie lower than the surface and beside its edges, so that it does not hold them.
+  struct Missed {
+    int count = 0;
+    int point = 0;        // the one nearest to an edge
+    double beside = 0.0;  // m, its horizontal distance from the rectangle
+  };
+  /// None of a contact that does not act yet.
+  Missed missed(const Instant& now) const;
+
  private:
   struct Surface;
   struct Touch;

@@ -76,6 +76,22 @@ void Contact::measure(const Instant& now, Memory, std::span<double> out) const {
   out[6] = place.z();
 }
 
+Contact::Missed Contact::missed(const Instant& now) const {
+  Missed out;
+  if (!active(now)) return out;
+  const Surface s = surface(now);
+  for (std::size_t i = 0; i < options_.points.size(); ++i) {
+    const Touch t = touch(options_.points[i], s, now);
+    if (t.depth <= 0.0 || t.beside == 0.0) continue;
+    if (out.count == 0 || t.beside < out.beside) {
+      out.point = static_cast<int>(i);
+      out.beside = t.beside;
+    }
+    ++out.count;
+  }
+  return out;
+}
+
 std::unique_ptr<const ForceElement> make_element(const ContactSpec& c, const ElementSite& site) {
   ContactOptions o;
   o.name = c.name;

@@ -103,7 +103,9 @@ TEST_CASE("hydro computes over the bed of the case, and refuses a gap that panel
       "kind = \"database\", coefficient_file = \"shallow/coefficients-barge.h5\", "
       "database_origin_m = [0.0, 0.0, 0.0]";
   const std::string read = write_case(folder, database);
-  const Result same = run_hydro(folder, {"hydro", read, "--set", "sea.depth_m=8.3", "--out", "same"});
+  // Panels as coarse as these leave 19 % between the table's frequencies, where the file has B of the retardation functions.
+  const Result same = run_hydro(folder, {"hydro", read, "--set", "sea.depth_m=8.3", "--set",
+                                         "panel_method.haskind_tolerance=0.25", "--out", "same"});
   INFO(same.err);
   CHECK(same.code == 0);
   const Result other = run_hydro(folder, {"hydro", read, "--set", "sea.depth_m=9", "--out", "other"});

@@ -116,12 +116,13 @@ direct_highest_rad_per_s = 1.45
 symmetry_tolerance = 0.011
 negative_damping_tolerance = 0.012
 kramers_kronig_tolerance = 0.013
+coupled_kramers_kronig_tolerance = 0.0135
 kernel_tail_tolerance = 0.014
 haskind_tolerance = 0.015
 coupled_haskind_tolerance = 0.016
 long_wave_phase_tolerance = 0.017
 long_wave_heave_tolerance = 0.018)");
-  CHECK(panels.tolerances == SelfCheckTolerances{0.011, 0.012, 0.013, 0.014, 0.015, 0.016, 0.017, 0.018});
+  CHECK(panels.tolerances == SelfCheckTolerances{0.011, 0.012, 0.013, 0.0135, 0.014, 0.015, 0.016, 0.017, 0.018});
   CHECK(panels.frequencies == 0);
   CHECK(panels.lowest == 0.11);
   CHECK(panels.highest == 3.1);

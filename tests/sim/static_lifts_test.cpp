@@ -182,6 +182,18 @@ TEST_CASE("statics: what nothing holds is refused by its name and the way it goe
   CHECK_THROWS_WITH(build_model(lift.spec), Catch::Contains("'stone' in -z goes on moving"));
 }
 
+TEST_CASE("statics: a load that stands beside its surface is refused with the points and the distance", "[statics]") {
+  // Feet 2 m to either side on a deck of 3.5 m by 20 m: all four stand 0.25 m beside it.
+  LiftParts lift;
+  lift.body("load", 6e4, Vector3(0, 0, 10));
+  lift.feet("load", 2.0, 2.0, "world", Vector3(0, 0, 8.0), 1e8);
+  CHECK_NOTHROW(build_model(lift.spec));
+  lift.spec.contacts[0].surface_length = 3.5;
+  CHECK_THROWS_WITH(build_model(lift.spec), Catch::Contains("'load' in -z goes on moving") &&
+                                                Catch::Contains("4 lie lower than its surface and beside its edges") &&
+                                                Catch::Contains("by 0.25 m"));
+}
+
 TEST_CASE("statics: a chain of fifteen hinges from a straight start sags as a catenary of bars", "[statics]") {
   truth::HingedChain truth{15, 2.0, 500.0 * kG, 4.0, 1e9, 0.0};
   truth.span = 15 * 2.0 + 1.5;

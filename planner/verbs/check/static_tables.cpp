@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "planner/verbs/check/crane_table.h"
 #include "planner/verbs/check/hinge_table.h"
 #include "planner/verbs/check/mooring_tables.h"
 #include "planner/verbs/check/natural_periods.h"
@@ -94,6 +95,7 @@ std::vector<ReportTable> static_tables(const Model& model, const Operation& oper
   std::vector<ReportTable> tables = sea_tables(model);
   if (!model.specification().operation.load.empty()) tables.push_back(place_table(model, poses));
   for (ReportTable& table : vessel_tables(model, poses)) tables.push_back(std::move(table));
+  for (ReportTable& table : crane_tables(model, poses)) tables.push_back(std::move(table));
   if (ReportTable angles = hinge_table(model, poses); angles.header.size() > 1) tables.push_back(std::move(angles));
   for (ReportTable& table : period_tables(model, equilibria)) tables.push_back(std::move(table));
   for (ReportTable& table : mooring_tables(model)) tables.push_back(std::move(table));

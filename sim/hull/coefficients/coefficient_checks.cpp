@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "sim/hull/coefficients/coefficients.h"
-#include "sim/hull/silent_modes.h"
+#include "sim/hull/coefficients/motion_scales.h"
 #include "sim/sea/dispersion.h"
 #include "sim/specification.h"
 
@@ -16,15 +16,6 @@ namespace {
 // Of the largest B_ii: panels leave an error of up to 3 % of that in the short waves that hardly reach the hull's
 // bottom, where B_33 itself has all but gone.
 constexpr double kHaskindFloor = 0.4;
-// Where no spring holds a hull - surge, sway, yaw - an error dB of the damping changes a motion by dB/(w m), m the
-// inertia of the displaced water: a tenth of w m as scale lets it change by 0.1 x 8 % = 0.8 %. In heave the spring is
-// known, C = rho g A_waterplane, and above resonance the motion changes by dB/|w (m + A) - C/w|, so that a tenth of this
-// is the scale: the bottom of a deep hull hardly makes waves there, and what the pressure has of B is the error of the
-// panels alone. Roll and pitch have springs that depend on the centre of gravity: there only noise is let pass.
-constexpr double kDampingInertia = 0.1, kDampingNoise = 1e-5;
-// There too an error dA counts beside m + A: the added mass of a shallow barge in sway is a tenth of m, that in heave as
-// large as m. With half of m as scale both may change a motion by half of 6 %.
-constexpr double kAddedInertia = 0.5;
 constexpr double kLongWave = 1.0;  // k length/2
 // Keys of the section panel_method that several checks share.
 constexpr const char* kSymmetryKey = "symmetry_tolerance";
@@ -49,20 +40,6 @@ std::string at_frequency(double w) {
 
 std::string at_frequency(const char* matrix, int i, int j, double w) {
   return pair_name(matrix, i, j).append(" ").append(at_frequency(w));
-}
-
-/// No spring holds the hull in this mode.
-bool is_free(int mode) { return mode % 6 < 2 || mode % 6 == 5; }
-
-/// N s/m, N m s: the least that an error of B_ii is compared with, by what it does to the motion; A is A_ii there.
-double least_damping_scale(const HydrodynamicCoefficients& c, int mode, double w, double A) {
-  const double m = displaced_inertia(c, mode);
-  const std::size_t hull = static_cast<std::size_t>(mode / 6);
-  if (is_free(mode)) return kDampingInertia * w * m;
-  double scale = kDampingNoise * w * m;
-  if (mode % 6 == 2 && hull < c.waterplane.size() && c.waterplane[hull] > 0.0)
-    scale = std::max(scale, kDampingInertia * (w * (m + A) - c.density * c.gravity * c.waterplane[hull] / w));
-  return scale;
 }
 
 /// X_ij / sqrt(s_i s_j) with s the diagonal of `scale`; rows of modes without scale are left as they are.
@@ -128,8 +105,10 @@ SelfCheck check_kernel_damping(const HydrodynamicCoefficients& c, const SelfChec
 }
 
 SelfCheck check_kramers_kronig(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t) {
+  const bool several = c.hulls() > 1;
   SelfCheck check{"kramers_kronig", "Kramers-Kronig: A(w), B(w) of the table against the retardation functions", "",
-                  0.0, t.kramers_kronig, "kramers_kronig_tolerance"};
+                  0.0, several ? t.coupled_kramers_kronig : t.kramers_kronig,
+                  several ? "coupled_kramers_kronig_tolerance" : "kramers_kronig_tolerance"};
   const VectorX largest_damping = largest_diagonal(c);
   for (const FrequencyCoefficients& f : c.frequency) {
     if (f.frequency <= 0.0) continue;
@@ -143,7 +122,7 @@ SelfCheck check_kramers_kronig(const HydrodynamicCoefficients& c, const SelfChec
     VectorX B_scale = largest_damping;
     for (int i = 0; i < c.modes(); ++i) {
       B_scale(i) = std::max(B_scale(i), least_damping_scale(c, i, f.frequency, f.A(i, i)));
-      if (is_free(i)) A_scale(i) = std::max(A_scale(i), kAddedInertia * displaced_inertia(c, i));
+      A_scale(i) = std::max(A_scale(i), least_inertia_scale(c, i, f.frequency, f.A(i, i)));
     }
     const MatrixX dA = normalised(A - f.A, A_scale);
     const MatrixX dB = normalised(B - f.B, B_scale);
@@ -200,12 +179,15 @@ SelfCheck check_low_frequency(const HydrodynamicCoefficients& c) {
   return check;
 }
 
-/// A and B at a frequency: of the table where it has it, else of the retardation functions; false without either.
-bool radiation_at(const HydrodynamicCoefficients& c, double w, MatrixX& A, MatrixX& B) {
+/// A and B at a frequency: of the table where it has it, else of the retardation functions; false without either. `gap`
+/// is empty where it is not known.
+bool radiation_at(const HydrodynamicCoefficients& c, double w, MatrixX& A, MatrixX& B, MatrixX& gap) {
+  gap.resize(0, 0);
   for (const FrequencyCoefficients& f : c.frequency)
     if (std::abs(f.frequency - w) <= 1e-6 * w) {
       A = f.A;
       B = f.B;
+      gap = f.gap;
       return true;
     }
   if (c.retardation.empty()) return false;
@@ -236,7 +218,8 @@ double diagonal_of(const HydrodynamicCoefficients& c) {
   return std::hypot(c.length, std::min(breadth, c.length));
 }
 
-/// Pairs of one hull only: the positions of hulls to each other are not part of a set.
+/// Pairs of one hull only: the positions of hulls to each other are not part of a set. What the damped water between
+/// coupled hulls takes is not in the waves; it counts where the set knows it.
 SelfCheck check_haskind(const HydrodynamicCoefficients& c, const SelfCheckTolerances& t) {
   const bool several = c.hulls() > 1;
   SelfCheck check{"haskind", "Haskind and Newman: B(w) against the energy of X from all around", "", 0.0,
@@ -244,14 +227,14 @@ SelfCheck check_haskind(const HydrodynamicCoefficients& c, const SelfCheckTolera
                   several ? "coupled_haskind_tolerance" : "haskind_tolerance"};
   const ExcitationTable& X = c.excitation;
   const double headings = static_cast<double>(X.headings.size());
-  MatrixX A, B;
+  MatrixX A, B, gap;
   VectorX largest = largest_diagonal(c);
   for (double w : X.frequencies)
-    if (radiation_at(c, w, A, B)) largest = largest.cwiseMax(B.diagonal());
+    if (radiation_at(c, w, A, B, gap)) largest = largest.cwiseMax(B.diagonal());
   for (std::size_t f = 0; f < X.frequencies.size(); ++f) {
     const double w = X.frequencies[f], k = wave_number(w, c.gravity, c.depth);
     if (between_table_frequencies(c, w)) continue;
-    if (headings < 2.0 * (0.5 * k * diagonal_of(c) * c.hulls() + 1.0) || !radiation_at(c, w, A, B)) continue;
+    if (headings < 2.0 * (0.5 * k * diagonal_of(c) * c.hulls() + 1.0) || !radiation_at(c, w, A, B, gap)) continue;
     VectorX scale = B.diagonal().cwiseMax(kHaskindFloor * largest);
     for (int i = 0; i < c.modes(); ++i) scale(i) = std::max(scale(i), least_damping_scale(c, i, w, A(i, i)));
     const double factor =
@@ -264,7 +247,8 @@ SelfCheck check_haskind(const HydrodynamicCoefficients& c, const SelfCheckTolera
                      std::conj(X.at(static_cast<int>(f), static_cast<int>(h), j)))
                         .real();
         const double size = std::sqrt(std::max(scale(i), 0.0) * std::max(scale(j), 0.0));
-        const double difference = std::abs(factor * energy - 0.5 * (B(i, j) + B(j, i)));
+        const double taken = gap.size() > 0 ? gap(i, j) : 0.0;
+        const double difference = std::abs(factor * energy + taken - 0.5 * (B(i, j) + B(j, i)));
         if (difference > 0.0) worsen(check, size > 0.0 ? difference / size : 1.0, at_frequency("B", i, j, w));
       }
   }
@@ -276,8 +260,8 @@ void add_long_wave_checks(const HydrodynamicCoefficients& c, const SelfCheckTole
                           std::vector<SelfCheck>& checks) {
   const ExcitationTable& X = c.excitation;
   const double w = X.frequencies[0];
-  MatrixX A, B;
-  if (0.5 * wave_number(w, c.gravity, c.depth) * c.length > kLongWave || !radiation_at(c, w, A, B)) return;
+  MatrixX A, B, gap;
+  if (0.5 * wave_number(w, c.gravity, c.depth) * c.length > kLongWave || !radiation_at(c, w, A, B, gap)) return;
   SelfCheck phase{"long_wave_phase", "phase of the excitation in long waves", "", 0.0, t.long_wave_phase,
                   "long_wave_phase_tolerance"};
   SelfCheck heave{"long_wave_heave", "heave force in long waves against the water plane", "", 0.0, t.long_wave_heave,

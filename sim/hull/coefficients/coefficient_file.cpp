@@ -129,7 +129,10 @@ void CoefficientReader::fill_retardation(HydrodynamicCoefficients& c) const {
 }
 
 void CoefficientReader::fill_frequencies(HydrodynamicCoefficients& c) const {
-  std::map<double, std::pair<std::vector<const CoefficientRow*>, std::vector<const CoefficientRow*>>> by_frequency;
+  using Rows = std::vector<const CoefficientRow*>;
+  std::map<double, std::pair<Rows, Rows>> by_frequency;
+  std::map<double, Rows> gap;
+  for (const CoefficientRow* row : rows_of("Bgap")) gap[row->argument].push_back(row);
   for (const CoefficientRow* row : rows_of("A")) by_frequency[row->argument].first.push_back(row);
   for (const CoefficientRow* row : rows_of("B")) {
     if (!by_frequency.contains(row->argument)) text_.fail(row->line, "B is given at a frequency without A");
@@ -138,7 +141,9 @@ void CoefficientReader::fill_frequencies(HydrodynamicCoefficients& c) const {
   for (const auto& [frequency, rows] : by_frequency) {
     if (frequency > 0.0 && rows.second.empty()) text_.fail(rows.first[0]->line, "A is given at a frequency without B");
     c.frequency.push_back({frequency, matrix_of(rows.first, false), matrix_of(rows.second, false)});
+    if (const auto taken = gap.extract(frequency)) c.frequency.back().gap = matrix_of(taken.mapped(), false);
   }
+  if (!gap.empty()) text_.fail(gap.begin()->second[0]->line, "Bgap is given at a frequency without A and B");
   VectorX largest = VectorX::Zero(text_.modes());
   for (const FrequencyCoefficients& f : c.frequency) largest = largest.cwiseMax(f.B.diagonal().cwiseAbs());
   for (const auto& [frequency, rows] : by_frequency)

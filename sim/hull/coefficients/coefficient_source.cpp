@@ -28,7 +28,7 @@ namespace {
 // Changes whenever the same input would give other numbers.
 constexpr const char* kMethodVersion = "rankine 5";
 constexpr const char* kMethodOfMeshes = "triangles to the diagonal";
-constexpr const char* kMethodOfSeveral = "several hulls 2";  // the same for coupled hulls
+constexpr const char* kMethodOfSeveral = "several hulls 3";  // the same for coupled hulls
 constexpr const char* kMethodOverBed = "flat bed 1";         // the same in water of finite depth
 
 // rad/s, of an automatic band: of deep water; over a bed, where B_33 falls as w alone and K has a long tail.

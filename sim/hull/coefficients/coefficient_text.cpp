@@ -122,8 +122,8 @@ void CoefficientText::require_header(const std::string& key, const std::vector<s
 }
 
 CoefficientRow CoefficientText::parse_row(const std::vector<std::string>& field) const {
-  static const std::set<std::string> quantities = {"Ainf", "K", "A", "B", "X"};
-  if (!quantities.contains(field[0])) fail(line_, "unknown quantity \"" + field[0] + "\", expected Ainf, K, A, B or X");
+  static const std::set<std::string> quantities = {"Ainf", "K", "A", "B", "Bgap", "X"};
+  if (!quantities.contains(field[0])) fail(line_, "unknown quantity \"" + field[0] + "\", expected Ainf, K, A, B, Bgap or X");
   if (field.size() != 6)
     fail(line_, "a row has 6 fields, got " + std::to_string(field.size()) + ": is the file cut off?");
   CoefficientRow row;

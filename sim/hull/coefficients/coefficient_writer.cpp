@@ -86,6 +86,7 @@ class CoefficientWriter {
         if (f.B(i, i) < -kNegativeDamping * largest(i))
           fail("B" + std::to_string(i + 1) + std::to_string(i + 1) + " at " + omega + " rad/s is negative");
       matrix("B", omega, f.B);
+      if (f.gap.size() > 0) matrix("Bgap", omega, f.gap);
     }
   }
 

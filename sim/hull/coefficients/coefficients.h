@@ -42,6 +42,7 @@ struct RetardationFunctions {
 struct FrequencyCoefficients {
   double frequency = 0.0;  // rad/s
   MatrixX A, B;            // modes x modes; kg, kg m, kg m2 and the same per s
+  MatrixX gap = {};        // of B, what the damped water between coupled hulls takes; empty where it is not known
 };
 
 /// Total first-order excitation (Froude-Krylov plus diffraction) per unit wave amplitude, N/m and N m/m.

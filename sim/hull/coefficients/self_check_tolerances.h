@@ -9,6 +9,9 @@ struct SelfCheckTolerances {
   double symmetry = 0.02;          // "symmetry_infinite", "symmetry"
   double negative_damping = 0.02;  // "damping", "kernel_damping"
   double kramers_kronig = 0.06;
+  // Of coupled hulls: a fitted state space rounds the top of the gap's narrowest resonance, by 9 to 11 % of it for the
+  // reference lift's hulls 10 m apart (docs/validation.md).
+  double coupled_kramers_kronig = 0.15;
   double kernel_tail = 0.02;
   // B is known to about 3 % (roll 4 %), X to 1 %. The shipped table leaves 1.2 %; moments about a point 2 m away leave
   // 13 %.

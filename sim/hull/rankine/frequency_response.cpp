@@ -152,10 +152,19 @@ class Responses {
         response.hull.col(c) = problem_.C * q + problem_.hull_response * v[f].col(c);
         response.iterations = std::max(response.iterations, columns[k].iterations());
       }
+      if (!surface_.in_gap.empty()) response.taken_by_gap = taken_by_gap(frequencies[f], response.surface);
     }
   }
 
  private:
+  /// kappa = w^2 (1 + i (beach + gap))^2/g: the gap's part of its imaginary part is 2 w^2 gap/g.
+  MatrixX taken_by_gap(double frequency, const MatrixXc& surface) const {
+    VectorX weight = VectorX::Zero(surface_.size());
+    for (int i = 0; i < surface_.size(); ++i)
+      if (surface_.in_gap[i]) weight(i) = 2.0 * frequency * frequency * beach_.gap / gravity_ * surface_.area[i];
+    return (surface.transpose() * weight.asDiagonal() * surface.conjugate()).real();
+  }
+
   VectorXc kappa_at(double frequency) const {
     VectorXc kappa(surface_.size());
     const double strength = beach_.strength * energy_speed(frequency, gravity_, beach_.depth);

@@ -42,6 +42,9 @@ struct FrequencyResponse {
   double frequency = 0.0;  // rad/s
   MatrixXc hull;           // H x columns of v: phi_H, m2/s for v in m/s
   MatrixXc surface;        // F x columns: phi_F
+  // columns x columns, m4/s: of unit v, the part of Im(kappa) that the gap's damping makes times phi_F conj phi_F over the
+  // surface, real part; empty where no cell is in a gap
+  MatrixX taken_by_gap;
   int iterations = 0;      // of GMRES, the most of its columns
 };
 

@@ -173,6 +173,7 @@ class Computation {
     const std::size_t count = band.frequencies.size();
     MatrixX A_inf = MatrixX::Zero(modes_, modes_);
     std::vector<Matrix<Complex>> A(count, Matrix<Complex>::Zero(modes_, modes_));
+    std::vector<MatrixX> gap(count, MatrixX::Zero(modes_, modes_));
     // Influences of all classes are computed together; after that each class is a share of the rest.
     const std::vector<BoundaryClass> classes =
         boundary_problem(panels, surface, bed_within(band.width, layout_, options_));
@@ -191,6 +192,9 @@ class Computation {
       for (std::size_t f = 0; f < count; ++f) {
         weighted.push_back(weight.cast<Complex>().asDiagonal() * responses[f].hull);
         scatter<Complex>(-modes.normal.transpose().cast<Complex>() * weighted[f], modes.modes, A[f]);
+        if (responses[f].taken_by_gap.size() > 0)
+          scatter<double>(band.frequencies[f] * options_.density * panels.symmetry.images() * responses[f].taken_by_gap,
+                          modes.modes, gap[f]);
         band.iterations = std::max(band.iterations, responses[f].iterations);
       }
       excite(panels, c.parity, modes, weighted, band);
@@ -204,6 +208,10 @@ class Computation {
       symmetrise(at.B, band.frequencies[f] * scale_);
       clear_still(at.A);
       clear_still(at.B);
+      if (hulls_.size() > 1) {
+        at.gap = std::move(gap[f]);
+        clear_still(at.gap);
+      }
       part.push_back(std::move(at));
     }
   }
@@ -215,6 +223,7 @@ class Computation {
       for (std::size_t f = p > 0 ? 1 : 0; f < parts_[p].size(); ++f) {
         const FrequencyCoefficients& at = parts_[p][f];
         set_.frequency.push_back({at.frequency, about_origin(at.A), about_origin(at.B)});
+        if (at.gap.size() > 0) set_.frequency.back().gap = about_origin(at.gap);
       }
   }
 
