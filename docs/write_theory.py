@@ -51,8 +51,11 @@ CHAPTERS = [
       ("Hook block, slings, spreader", "sim/lifting/rigging.h"),
       ("Winch and drive profiles", "sim/lifting/profile.h"), ("The angle of a hanging line", "sim/lifting/plane_angle.h"),
       ("Taglines", "sim/lifting/tagline.h"), ("Contact", "sim/lifting/contact.h"), ("Catenaries", "sim/lifting/catenary.h"),
-      ("Moorings", "sim/lifting/mooring.h"), ("Springs to the world", "sim/lifting/restoring.h"), ("Ballast", "sim/lifting/ballast.h"),
-      ("Wind on bodies", "sim/environment/wind_area.h")]),
+      ("Moorings", "sim/lifting/mooring.h"), ("Springs to the world", "sim/lifting/restoring.h"), ("Ballast", "sim/lifting/ballast.h")]),
+    ("Wind and current", "Fluids that pass the lift, steady or in gusts.",
+     [("Mean wind and gusts", "sim/environment/gusts.h"), ("Wind and current at a place", "sim/environment/stream.h"),
+      ("Areas of bodies", "sim/environment/flow_area.h"), ("Hulls", "sim/environment/flow_hull.h"),
+      ("Coefficients of hulls", "sim/environment/flow_coefficients.h")]),
     ("Derivatives and the search", "How a run changes with its parameters, and what a search by gradients looks at.",
      [("The tangent of a step", "sim/multibody/hht_tangent.h"), ("Kinks of the laws", "sim/multibody/branches.h"),
       ("The tangent of a run", "sim/tangent.h"),
@@ -70,6 +73,7 @@ CHAPTERS = [
 # What the short citations stand for. The key is how the text cites: names up to the year.
 REFERENCES = {
     "Allgower & Georg 1990": "E. L. Allgower, K. Georg (1990): Numerical Continuation Methods: An Introduction. Springer.",
+    "Blendermann 1994": "W. Blendermann (1994): Parameter identification of wind loads on ships. Journal of Wind Engineering and Industrial Aerodynamics 51, 339-351.",
     "Bock 1983": "H. G. Bock (1983): Recent advances in parameter identification techniques for O.D.E. In: Numerical Treatment of Inverse Problems in Differential and Integral Equations, Birkhäuser, 95-121.",
     "Bruls & Cardona 2010": "O. Brüls, A. Cardona (2010): On the use of Lie group time integrators in multibody dynamics. Journal of Computational and Nonlinear Dynamics 5, 031002.",
     "Bruls & Eberhard 2008": "O. Brüls, P. Eberhard (2008): Sensitivity analysis for dynamic mechanical systems with finite rotations. International Journal for Numerical Methods in Engineering 74, 1897-1927.",

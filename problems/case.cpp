@@ -50,8 +50,8 @@ std::string written(double value) {
 
 namespace {
 
-/// Spectra and records that seas have in files.
-void read_sea_files_of(Case& c, const Node& root, Findings& findings) {
+/// Spectra and records that seas and the wind have in files.
+void read_files_of(Case& c, const Node& root, Findings& findings) {
   SeaSpec& sea = c.specification.sea;
   const auto read = [&](SeaStateSpec& state, const std::string& entry) {
     const char* key = state.type == SeaStateSpec::Type::record ? "record_file" : "spectrum_file";
@@ -64,6 +64,11 @@ void read_sea_files_of(Case& c, const Node& root, Findings& findings) {
   for (SeaStateSpec& state : sea.states) {
     read(state, "sea.states." + state.name);
     for (SeaStateSpec& part : state.parts) read(part, "sea.states." + state.name + ".parts." + part.name);
+  }
+  try {
+    read_wind_record(c.specification.wind);
+  } catch (const FileError& error) {
+    findings.add(position_of_key(root, "wind", "record_file"), "wind", "record_file", error.what());
   }
 }
 
@@ -87,7 +92,7 @@ void read_document(Node root, Case& c) {
   check_operability(c, root, findings);
   check_weather(c.weather, root, findings);
   findings.throw_if_any();
-  read_sea_files_of(c, root, findings);
+  read_files_of(c, root, findings);
   findings.throw_if_any();
   if (c.title.empty()) c.title = c.name;
   c.specification.name = c.name;

@@ -37,6 +37,7 @@ class LiftCheck {
       check_crane_curve(curve, check);
     }
     check_wind();
+    check_current();
     check_panel_method();
     check_solver();
   }
@@ -87,11 +88,35 @@ class LiftCheck {
   /// Wind that leaves out the load would be worse than none: a report would show it.
   void check_wind() {
     const std::string& load = spec_.operation.load;
-    const auto& areas = spec_.wind_areas;
     if (!spec_.wind.blows() || load.empty()) return;
-    if (std::none_of(areas.begin(), areas.end(), [&](const WindAreaSpec& a) { return a.body == load; }))
+    const auto of_load = [&](const auto& entry) { return entry.body == load; };
+    if (std::ranges::none_of(spec_.wind_areas, of_load) && std::ranges::none_of(spec_.wind_hulls, of_load))
       report("wind", "speed_m_per_s",
              fmt::format("blows on nothing of the load: give [[wind_areas]] with body = \"{}\"", load));
+  }
+
+  void check_current() {
+    const CurrentSpec& current = spec_.sea.current;
+    const std::string entry = "sea.current";
+    if (!find_key(root_, "sea", "current")) return;
+    const bool table = current.profile == CurrentSpec::Profile::table;
+    for (const char* key : {"speed_m_per_s", "towards_deg"}) {
+      if (table && written(entry, key)) report(entry, key, "cannot stand beside a table, which has it");
+      if (!table && !written(entry, key)) report(entry, key, "is required without a table");
+    }
+    for (std::size_t i = 0; i < current.table.size(); ++i) {
+      const auto& layer = current.table[i];
+      if (layer.depth < 0.0 || layer.speed < 0.0 || (i > 0 && !(layer.depth > current.table[i - 1].depth)))
+        report(entry, "table",
+               fmt::format("depths must be >= 0 m and rise, speeds be >= 0 m/s, but layer {} is at {:.6g} m with "
+                           "{:.6g} m/s",
+                           i + 1, layer.depth, layer.speed));
+    }
+    if (current.profile == CurrentSpec::Profile::power && !(spec_.sea.depth > 0.0))
+      report(entry, "profile", "\"power\" falls towards a bed: give sea.depth_m, or profile = \"uniform\"");
+    if (current.flows() && spec_.current_areas.empty() && spec_.current_hulls.empty())
+      report(entry, table ? "table" : "speed_m_per_s",
+             "flows past nothing: give [[current_hulls]] or [[current_areas]]");
   }
 
   void check_panel_method() {

@@ -106,7 +106,8 @@ class PlanCheck {
       if (state.name != scenario.sea) continue;
       const bool regular = state.type == SeaStateSpec::Type::regular;
       if (scenario.phase && !regular) report(entry, "phase_deg", "has a meaning only with a regular sea");
-      if (scenario.seed && !state.seeded()) report(entry, "seed", "has a meaning only with an irregular sea");
+      if (scenario.seed && !state.seeded() && !case_.specification.wind.follows_seed())
+        report(entry, "seed", "has a meaning only with an irregular sea, or with gusts that have no seed of their own");
       if (scenario.heading && !state.has_heading() && state.type != SeaStateSpec::Type::calm)
         report(entry, "heading_deg", "has a meaning only with a sea of one direction, and " + state.name + " has several");
     }

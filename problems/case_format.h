@@ -17,6 +17,7 @@ const Table& element_table() {
 
 const Table& sea_table();
 const Table& wind_table();
+const Table& current_table();
 const Table& body_table();
 const Table& hydrodynamics_table();
 const Table& rao_table();

@@ -42,9 +42,9 @@ const Table& scenario_table() {
         .absent("the state's");
     t.number("phase_deg", &S::phase, unit::deg, any_value(), "Phase instead of the state's, regular waves.")
         .absent("the state's");
-    t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Seed instead of the state's, irregular waves.")
+    t.integer("seed", &S::seed, Range{0, 2147483647, false}, "Seed instead of the state's, of irregular waves and of gusts that follow them.")
         .absent("the state's");
-    t.integer("seeds", &S::seeds, Range{1, 10000, false}, "Irregular waves: so many seeds, from `seed` on.");
+    t.integer("seeds", &S::seeds, Range{1, 10000, false}, "Irregular waves and gusts: so many seeds, from `seed` on.");
     t.integer("phases", &S::phases, Range{1, 1000, false},
               "Regular waves: so many phases, evenly spaced from `phase_deg` on.");
     t.number("weight", &S::weight, unit::one, positive(),

@@ -212,6 +212,7 @@ const Table& sea_table() {
         "deep_waves", &S::deep_waves,
         "The waves, and what hulls do to them, are those of deep water whatever `depth_m` says, which then serves "
         "the moorings alone.");
+    t.table("current", &S::current, &current_table, "The current.").absent("none");
     t.tables("states", &S::states, "name", &sea_state_table, "Sea states.");
     return t.build();
   }();

@@ -15,8 +15,11 @@ struct Missing {
 
 const std::vector<Missing>& missing_things() {
   static const std::vector<Missing> all = {
-      {{"gust", "windage"}, "stillhook does not model gusts yet: [wind] with [[wind_areas]] is steady"},
-      {{"current", "currents"}, "stillhook does not model current yet"},
+      {{"gust", "gusts", "gustiness"},
+       "gusts are those of a spectrum or of a record, [wind] with spectrum = \"npd\", not a factor on the mean"},
+      {{"windage"}, "wind on bodies is that of [[wind_areas]] and [[wind_hulls]]"},
+      {{"currents", "current_speed", "current_direction", "current_velocity"},
+       "the current has a table of its own, [sea.current], and acts on [[current_areas]] and [[current_hulls]]"},
       {{"ahc", "phc", "heave_compensation", "heave_compensator", "heave_compensated", "compensator", "compensation"},
        "stillhook does not model heave compensation yet"},
       {{"constant_tension", "tension_control"},
@@ -30,8 +33,8 @@ const std::vector<Missing>& missing_things() {
        "a crane's capacity over its radius is an entry of [[crane_curves]], one for each height of sea"},
       {{"slam", "slamming", "slamming_coefficient"}, "stillhook does not model slamming yet"},
       {{"drag", "morison", "cd"},
-       "stillhook does not model drag on the water's relative velocity yet: hydrodynamics of kind \"constant\" have "
-       "quadratic damping on the body's own velocity"},
+       "stillhook does not model drag on the velocity of the water in waves yet: [[current_areas]] have that on the "
+       "current and the body's own velocity"},
       {{"surface_normal", "guide", "guides", "bumper", "bumpers", "stabbing"},
        "stillhook does not model guides, bumpers or inclined contact surfaces yet: a contact is a horizontal "
        "rectangle"},

@@ -16,6 +16,11 @@ const SeaStateSpec* sea_of(const Case& c, const ScenarioSpec& scenario) {
   return nullptr;
 }
 
+// Something in it is drawn from the seed that a scenario gives: waves, or gusts that follow them.
+bool has_seed(const Case& c, const SeaStateSpec* sea) {
+  return (sea && sea->seeded()) || c.specification.wind.follows_seed();
+}
+
 // `count` seeds or phases in place of one; an offset of the seed, a shift of the phases in steps between them.
 void expand(const Case& c, const ScenarioSpec& scenario, int count, int seed_offset, double phase_shift,
             std::vector<ScenarioSpec>& all) {
@@ -28,7 +33,8 @@ void expand(const Case& c, const ScenarioSpec& scenario, int count, int seed_off
     if (count > 1) one.name += "#" + std::to_string(k + 1);
     if (regular && (count > 1 || phase_shift != 0.0))
       one.phase = scenario.phase.value_or(sea->phase) + 2.0 * std::numbers::pi * (k + phase_shift) / count;
-    if (sea && sea->seeded() && (count > 1 || seed_offset != 0)) one.seed = scenario.seed.value_or(sea->seed) + seed_offset + k;
+    if (has_seed(c, sea) && (count > 1 || seed_offset != 0))
+      one.seed = scenario.seed.value_or(sea && sea->seeded() ? sea->seed : 1) + seed_offset + k;
     all.push_back(one);
   }
 }
@@ -50,10 +56,11 @@ std::vector<ScenarioSpec> scenarios_of(const Case& c) {
     const bool regular = sea && sea->type == SeaStateSpec::Type::regular;
     if (s.seeds > 1 && s.phases > 1)
       throw CaseError("plan.scenarios." + s.name + ": a sea has either seeds or phases, not both");
-    const bool too_many_seeds = s.seeds > 1 && sea && !sea->seeded();
+    const bool too_many_seeds = s.seeds > 1 && sea && !has_seed(c, sea);
     if (too_many_seeds || (s.phases > 1 && !regular))
-      throw CaseError("plan.scenarios." + s.name + (too_many_seeds ? ".seeds: only an irregular sea has seeds, "
-                                                                   : ".phases: only a regular wave has phases, ") +
+      throw CaseError("plan.scenarios." + s.name +
+                      (too_many_seeds ? ".seeds: only an irregular sea and gusts have seeds, "
+                                      : ".phases: only a regular wave has phases, ") +
                       s.sea + " is not one");
     expand(c, s, std::max(s.seeds, s.phases), 0, 0.0, all);
   }
@@ -66,7 +73,7 @@ std::vector<ScenarioSpec> fresh_scenarios(const Case& c, int count) {
   constexpr double kShift = 0.381966;
   for (const ScenarioSpec& s : given(c)) {
     const SeaStateSpec* sea = sea_of(c, s);
-    const bool one_of_its_kind = !sea || (!sea->seeded() && sea->type != SeaStateSpec::Type::regular);
+    const bool one_of_its_kind = !has_seed(c, sea) && !(sea && sea->type == SeaStateSpec::Type::regular);
     expand(c, s, one_of_its_kind ? 1 : count, kFreshSeeds, one_of_its_kind ? 0.0 : kShift, all);
   }
   return all;
@@ -77,6 +84,8 @@ Specification in_scenario(Specification specification, const ScenarioSpec& scena
   const auto state =
       std::find_if(states.begin(), states.end(), [&](const SeaStateSpec& s) { return s.name == scenario.sea; });
   const std::string where = "plan.scenarios." + scenario.name;
+  const bool gusts = specification.wind.follows_seed();
+  if (scenario.seed && gusts && !(state != states.end() && state->seeded())) specification.wind.seed = *scenario.seed;
   if (state == states.end() && scenario.sea == "calm") {
     specification.sea.active = scenario.sea;
     return specification;
@@ -84,14 +93,14 @@ Specification in_scenario(Specification specification, const ScenarioSpec& scena
   if (state == states.end()) throw CaseError(where + ".sea: there is no sea state \"" + scenario.sea + "\"");
   if (scenario.phase && state->type != SeaStateSpec::Type::regular)
     throw CaseError(where + ".phase_deg: only a regular wave has a phase, " + scenario.sea + " is not one");
-  if (scenario.seed && !state->seeded())
-    throw CaseError(where + ".seed: only an irregular sea has a seed, " + scenario.sea + " is not one");
+  if (scenario.seed && !state->seeded() && !gusts)
+    throw CaseError(where + ".seed: only an irregular sea and gusts have a seed, " + scenario.sea + " is not one");
   if (scenario.heading && !state->has_heading() && state->type != SeaStateSpec::Type::calm)
     throw CaseError(where + ".heading_deg: only a sea of one direction has a heading, " + scenario.sea +
                     " has several");
   if (scenario.heading) state->heading = *scenario.heading;
   if (scenario.phase) state->phase = *scenario.phase;
-  if (scenario.seed) state->seed = *scenario.seed;
+  if (scenario.seed && state->seeded()) state->seed = *scenario.seed;
   specification.sea.active = scenario.sea;
   return specification;
 }

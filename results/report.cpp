@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "results/files.h"
+#include "results/flow_words.h"
 #include "results/html.h"
 #include "results/replay.h"
 #include "results/report_parts.h"
@@ -135,8 +136,9 @@ std::string report_html(const ReportData& data) {
   const std::string plain_title = data.title.empty() ? data.specification.name : data.title;
   const std::string title = escape_html(plain_title);
   std::string conditions = sea_sentence(data.specification.sea, data.north);
-  if (const std::string wind = wind_sentence(data.specification.wind, data.north); !wind.empty())
-    conditions += ". " + wind;
+  for (const std::string& flow :
+       {wind_sentence(data.specification, data.north), current_sentence(data.specification.sea, data.north)})
+    if (!flow.empty()) conditions += ". " + flow;
   std::string page = fmt::format(
       "{}<body><header><h1>{}</h1>{}<p class=\"muted\">{}</p></header>\n<main><section id=\"overview\" "
       "aria-label=\"Overview\"><div class=\"judgement\">{}</div>{}</section>\n<nav "

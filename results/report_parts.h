@@ -67,7 +67,4 @@ std::string poses_part(const ReportData& data, const Scene& scene);
 std::string assumptions_part(const ReportData& data);
 std::string plots_part(const std::vector<ReportFigure>& figures);  // report_plots.cpp
 std::string search_part(const SearchSection& search);              // report_search.cpp
-/// The wind in words; empty without one.
-std::string wind_sentence(const WindSpec& wind, std::optional<double> north = {});
-
 }  // namespace stillhook

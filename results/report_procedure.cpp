@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "results/flow_words.h"
 #include "results/html.h"
 #include "results/pose_drawing.h"
 #include "results/report_parts.h"
@@ -205,15 +206,6 @@ std::string gear_sentences(const Specification& s) {
 
 }  // namespace
 
-std::string wind_sentence(const WindSpec& wind, std::optional<double> north) {
-  if (!wind.blows()) return {};
-  std::string text =
-      fmt::format("Wind of {} m/s (hourly mean at 10 m), steady, blowing towards {}° from +x, counter-clockwise",
-                  fixed_number(wind.speed, 1), fixed_number(degrees(wind.towards()), 0));
-  if (north) text += fmt::format(", that is from {}° true", fixed_number(compass_from(wind.towards(), *north), 0));
-  return text;
-}
-
 std::string procedure_part(const ReportData& data, const RunView& view) {
   const std::vector<PhaseRecord>& records = data.trajectory.phases;
   Rows rows;
@@ -257,8 +249,10 @@ std::string assumptions_part(const ReportData& data) {
   std::string out = "<ul><li>" + escape_html(sea_sentence(s.sea, data.north));
   if (waves) out += "; the waves grow over the first " + fixed_number(s.sea.ramp, 0) + " s";
   out += ".</li>";
-  if (const std::string wind = wind_sentence(s.wind, data.north); !wind.empty())
-    out += "<li>" + escape_html(wind) + "; static poses are those in the wind.</li>";
+  if (const std::string wind = wind_sentence(s, data.north); !wind.empty())
+    out += "<li>" + escape_html(wind) + "; static poses are those in the mean wind.</li>";
+  if (const std::string current = current_sentence(s.sea, data.north); !current.empty())
+    out += "<li>" + escape_html(current) + "; static poses are those in it.</li>";
   out += gear_sentences(s);
   out += fmt::format(
       "<li>Implicit HHT integration, α = {}, time step {} s; samples every {} s. Extremes of a single quantity are "

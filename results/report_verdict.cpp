@@ -60,6 +60,7 @@ std::string ground_of_verdict(const ReportData& data) {
   const auto state =
       std::find_if(sea.states.begin(), sea.states.end(), [&](const SeaStateSpec& s) { return s.name == sea.active; });
   const bool irregular = state != sea.states.end() && state->seeded();
+  const bool gusts = data.specification.wind.seeded();
   const SearchSection* search = data.search;
   std::string out;
   if (search && search->scenarios.size() > 1)
@@ -67,11 +68,17 @@ std::string ground_of_verdict(const ReportData& data) {
         "<p>Limits are judged in all {} scenarios of the search; replay, plots and the tables by phase are of one of "
         "them, {}.</p>",
         search->scenarios.size(), escape_html(readable_name(search->shown)));
-  else if (irregular)
+  else if (irregular || gusts)
     out += fmt::format(
-        "<p>This is one run in one seed of the sea ({}): other seeds have other extremes. <code>plan</code> tries "
+        "<p>This is one run in one seed of {} ({}): other seeds have other extremes. <code>plan</code> tries "
         "several, and with <code>certify</code> fresh ones.</p>",
-        state->seed);
+        irregular && gusts ? "sea and gusts"
+        : irregular        ? "the sea"
+                           : "the gusts",
+        irregular && gusts && data.specification.gust_seed() != state->seed
+            ? fmt::format("{} and {}", state->seed, data.specification.gust_seed())
+        : irregular ? std::to_string(state->seed)
+                    : std::to_string(data.specification.gust_seed()));
   if (!search) return out;
   if (!search->certificate.empty())
     return out + fmt::format("<p class=\"certificate\"><b class=\"{}\">Certificate:</b> {}</p>",

@@ -3,6 +3,7 @@
 
 #include "sim/hull/hydrostatics.h"
 #include "sim/hull/rao_motion.h"
+#include "sim/environment/streams.h"
 #include "sim/lifting/wire.h"
 #include "sim/model_builder.h"
 #include "sim/multibody/assembly.h"
@@ -30,6 +31,7 @@ ModelBuilder::ModelBuilder(const Specification& specification, const HydroProgre
 Model ModelBuilder::build() {
   place_bodies();
   model_.waves_ = std::make_shared<const WaveField>(build_wave_field(spec().sea));
+  for (std::string& note : current_notes(spec())) model_.warnings_.push_back(std::move(note));
   join_bodies();
   choose_lengths();
   add_elements();

@@ -233,8 +233,20 @@ Phase timed_phase(const Model& model, const PhaseSpec& spec, const std::vector<d
 
 namespace {
 
+// What was measured of the wind says nothing of what came after.
+void refuse_longer_than_wind_record(const WindSpec& wind, double duration) {
+  if (!wind.blows() || wind.gusts != WindSpec::Gusts::record || !wind.record) return;
+  if (duration <= wind.record->length()) return;
+  throw SpecificationError("wind", "record_file",
+                           "lasts " + number_text(wind.record->length()) + " s, the run " + number_text(duration) +
+                               " s without waiting for events: give a longer record or a spectrum");
+}
+
 // A sea made of a record repeats after it, which no sea does.
 void refuse_longer_than_record(const Model& model, const Operation& operation) {
+  const double run = std::max(operation.planned_duration(), 0.0);
+  const double end = model.specification().solver.max_duration;
+  refuse_longer_than_wind_record(model.specification().wind, end > 0.0 ? (run > 0.0 ? std::min(run, end) : end) : run);
   const SeaStateSpec* sea = model.specification().sea.active_state();
   if (!sea || sea->type != SeaStateSpec::Type::record || !sea->record) return;
   const double length = record_length(*sea->record);

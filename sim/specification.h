@@ -9,6 +9,7 @@
 
 #include "sim/body_spec.h"
 #include "sim/element_kind.h"
+#include "sim/environment/flow_spec.h"
 #include "sim/environment/wind_spec.h"
 #include "sim/error.h"
 #include "sim/lifting/crane_curve.h"
@@ -44,12 +45,22 @@ struct Specification {
   std::vector<BallastSpec> ballast;
   WindSpec wind;
   std::vector<WindAreaSpec> wind_areas;
+  std::vector<WindHullSpec> wind_hulls;
+  std::vector<CurrentAreaSpec> current_areas;
+  std::vector<CurrentHullSpec> current_hulls;
   OperationSpec operation;
   std::vector<PoseSpec> poses;
   std::vector<ClearanceSpec> clearances;
   std::vector<CraneCurveSpec> crane_curves;
   SolverSpec solver;
   std::vector<OwnElement> own_elements;  // of a program that embeds the library; never of a case file
+
+  /// Index that the phases of the gusts come from: the wind's own, else that of the active sea, else 1.
+  int gust_seed() const {
+    if (wind.seed) return *wind.seed;
+    const SeaStateSpec* state = sea.active_state();
+    return state && state->seeded() ? state->seed : 1;
+  }
 };
 
 // ---- kinds of force elements ----------------------------------------------------------------------------------
@@ -63,6 +74,11 @@ inline constexpr std::tuple kElementKinds = {
     ElementKind<ContactSpec>{"contacts", "contact", "Contacts", &Specification::contacts},
     ElementKind<BallastSpec>{"ballast", "ballast", "Ballast transfers", &Specification::ballast, &BallastSpec::drive},
     ElementKind<WindAreaSpec>{"wind_areas", "wind area", "Areas in the wind", &Specification::wind_areas},
+    ElementKind<WindHullSpec>{"wind_hulls", "hull in the wind", "Hulls in the wind", &Specification::wind_hulls},
+    ElementKind<CurrentAreaSpec>{"current_areas", "area in the current", "Areas in the current",
+                                 &Specification::current_areas},
+    ElementKind<CurrentHullSpec>{"current_hulls", "hull in the current", "Hulls in the current",
+                                 &Specification::current_hulls},
 };
 
 /// Calls visit(kind) for each of them.

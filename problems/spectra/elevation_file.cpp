@@ -39,40 +39,54 @@ double even_step(const std::vector<double>& time, const std::string& file) {
 
 }  // namespace
 
-ElevationRecord read_elevation_file(const RecordFileSpec& spec) {
-  std::ifstream in(spec.file, std::ios::binary);
+MeasuredSeries read_measured_series(const std::string& file, const std::string& wanted) {
+  std::ifstream in(file, std::ios::binary);
   std::ostringstream whole;
   whole << in.rdbuf();
-  if (!in) throw FileError(spec.file + ": cannot be read");
+  if (!in) throw FileError(file + ": cannot be read");
   const std::string text = whole.str();
-  ElevationRecord record;
+  MeasuredSeries series;
   std::vector<double> time;
   try {
     CsvRows rows(text);
     const char separator = rows.find_separator();
     std::vector<CsvCell> cells;
-    if (!rows.next(separator, cells)) throw FileError(spec.file + ": is empty");
+    if (!rows.next(separator, cells)) throw FileError(file + ": is empty");
     std::vector<std::string> names;
     for (const CsvCell& cell : cells) names.emplace_back(cell.text);
-    const auto column = static_cast<std::size_t>(std::ranges::find(names, spec.column) - names.begin());
+    const auto column = static_cast<std::size_t>(std::ranges::find(names, wanted) - names.begin());
     if (column == names.size())
-      throw FileError(spec.file + ": has no column \"" + spec.column + "\"" + did_you_mean(spec.column, names));
-    if (column == 0) throw FileError(spec.file + ": the first column is the time in s");
+      throw FileError(file + ": has no column \"" + wanted + "\"" + did_you_mean(wanted, names));
+    if (column == 0) throw FileError(file + ": the first column is the time in s");
     while (rows.next(separator, cells)) {
       if (cells.size() <= column)
-        throw FileError(spec.file + ":" + std::to_string(rows.line()) + ": has no cell under \"" + spec.column + "\"");
-      time.push_back(cell_number(spec.file, rows.line(), cells[0], names[0]));
-      record.elevation.push_back(factor_of(spec.unit) *
-                                 cell_number(spec.file, rows.line(), cells[column], spec.column));
+        throw FileError(file + ":" + std::to_string(rows.line()) + ": has no cell under \"" + wanted + "\"");
+      time.push_back(cell_number(file, rows.line(), cells[0], names[0]));
+      series.value.push_back(cell_number(file, rows.line(), cells[column], wanted));
     }
   } catch (const Error&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw FileError(spec.file + ": " + error.what());
+    throw FileError(file + ": " + error.what());
   }
-  record.step = even_step(time, spec.file);
-  record.source = spec.file.substr(spec.file.find_last_of('/') + 1) + ", column " + spec.column;
-  return record;
+  series.step = even_step(time, file);
+  series.source = file.substr(file.find_last_of('/') + 1) + ", column " + wanted;
+  return series;
+}
+
+ElevationRecord read_elevation_file(const RecordFileSpec& spec) {
+  MeasuredSeries series = read_measured_series(spec.file, spec.column);
+  for (double& v : series.value) v *= factor_of(spec.unit);
+  return {series.step, std::move(series.value), std::move(series.source)};
+}
+
+WindRecord read_wind_file(const WindSpec& wind) {
+  MeasuredSeries series = read_measured_series(wind.record_file, wind.column);
+  for (std::size_t i = 0; i < series.value.size(); ++i)
+    if (!(series.value[i] >= 0.0))
+      throw FileError(wind.record_file + ": value " + std::to_string(i + 1) + " is a wind speed below 0, " +
+                      number_text(series.value[i]) + " m/s");
+  return {series.step, std::move(series.value), std::move(series.source)};
 }
 
 }  // namespace stillhook

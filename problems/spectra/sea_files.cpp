@@ -15,14 +15,19 @@ namespace {
 
 using SpectrumFormat = SpectrumFileSpec::Format;
 
+/// The file as it is.
+std::string file_key(const std::string& file) {
+  std::error_code error;
+  return file + '|' + std::to_string(std::filesystem::file_size(file, error)) + '|' +
+         std::to_string(std::filesystem::last_write_time(file, error).time_since_epoch().count());
+}
+
 /// What a reading depends on: the file as it is, and how it is read.
 std::string key_of(const SpectrumFileSpec& s, double weight) {
-  std::error_code error;
   std::ostringstream key;
   key.precision(17);
-  key << s.file << '|' << std::filesystem::file_size(s.file, error) << '|'
-      << std::filesystem::last_write_time(s.file, error).time_since_epoch().count() << '|' << static_cast<int>(s.format)
-      << '|' << s.time << '|' << s.bearing_of_x << '|' << s.scale_to_height << '|' << weight;
+  key << file_key(s.file) << '|' << static_cast<int>(s.format) << '|' << s.time << '|' << s.bearing_of_x << '|'
+      << s.scale_to_height << '|' << weight;
   for (const double p : s.point) key << '|' << p;
   return key.str();
 }
@@ -48,6 +53,16 @@ void read_sea_file(SeaStateSpec& state, double density, double gravity) {
   if (!entry)
     entry = std::make_shared<const DirectionalSpectrum>(read_spectrum_file(state.spectrum_file, density, gravity));
   state.spectrum = entry;
+}
+
+void read_wind_record(WindSpec& wind) {
+  if (wind.gusts != WindSpec::Gusts::record) return;
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_ptr<const WindRecord>> known;
+  const std::lock_guard lock(mutex);
+  auto& entry = known[file_key(wind.record_file) + '|' + wind.column];
+  if (!entry) entry = std::make_shared<const WindRecord>(read_wind_file(wind));
+  wind.record = entry;
 }
 
 }  // namespace stillhook

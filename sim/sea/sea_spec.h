@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/environment/current_spec.h"
+
 namespace stillhook {
 
 /// Energy over frequency and direction, as a hindcast or a buoy gives it, in our sense of direction.
@@ -90,6 +92,7 @@ struct SeaSpec {
   double gravity = 9.80665;     // m/s2
   double depth = 0.0;           // m, 0 = deep; of the moorings and the waves
   bool deep_waves = false;      // the waves are those of deep water whatever the depth
+  CurrentSpec current;
   std::vector<SeaStateSpec> states;
 
   /// m, the depth that the waves feel; infinite in deep water.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "planner/verbs/check/crane_table.h"
+#include "planner/verbs/check/flow_tables.h"
 #include "planner/verbs/check/hinge_table.h"
 #include "planner/verbs/check/mooring_tables.h"
 #include "planner/verbs/check/natural_periods.h"
@@ -93,6 +94,7 @@ std::vector<ReportTable> static_tables(const Model& model, const Operation& oper
   std::vector<StaticPose> poses;
   for (const NamedEquilibrium& e : equilibria) poses.push_back(static_pose(model, e.state, e.name));
   std::vector<ReportTable> tables = sea_tables(model);
+  for (ReportTable& table : flow_tables(model)) tables.push_back(std::move(table));
   if (!model.specification().operation.load.empty()) tables.push_back(place_table(model, poses));
   for (ReportTable& table : vessel_tables(model, poses)) tables.push_back(std::move(table));
   for (ReportTable& table : crane_tables(model, poses)) tables.push_back(std::move(table));

@@ -9,7 +9,8 @@
 namespace stillhook {
 namespace {
 
-/// --seed chooses the waves: it is the seed of the active sea, if that is irregular.
+/// --seed chooses the waves, and with them the gusts: it is the seed of the active sea, if that is irregular, else that
+/// of the gusts.
 Case load_with_sea_seed(const CommonOptions& options) {
   Case c = load_case(options);
   if (!options.seed) return c;
@@ -17,7 +18,9 @@ Case load_with_sea_seed(const CommonOptions& options) {
   for (const SeaStateSpec& state : sea.states)
     if (state.name == sea.active && state.seeded())
       return load_case(options, {{"sea.states." + sea.active + ".seed", std::to_string(*options.seed)}});
-  throw UsageError("--seed: the active sea \"" + sea.active + "\" is not irregular, it has no seed");
+  if (c.specification.wind.seeded())
+    return load_case(options, {{"wind.seed", std::to_string(*options.seed)}});
+  throw UsageError("--seed: the active sea \"" + sea.active + "\" is not irregular, it has no seed, and the wind has no gusts");
 }
 
 int exit_code(const RunResult& run) {
@@ -50,7 +53,7 @@ class SimulateVerb final : public Verb {
   void add_options(VerbOptions& o) override {
     o.add_case();
     o.add_folder();
-    o.add_seed("Seed of the active irregular sea");
+    o.add_seed("Seed of the active irregular sea and the gusts");
   }
   int run(const CommonOptions& options) override {
     VerbRun verb(name(), options);
