@@ -87,8 +87,9 @@ void check_key(const Case& c, const std::string& key, double relative_step) {
     CAPTURE(key, channels[k], size, error, truth.doubt);
     // What the twins' width leaves, (23 rad/s * 0.4 ms)^2 / 6 for the wire's own oscillation at the worst, beside what
     // the differences themselves are in doubt of: rounding of a run over the step, and kinks of the pull-only law that
-    // fall between the two sides.
-    CHECK(truth.doubt <= 3.5e-3 * size + 1e-12);
+    // fall between the two sides. The load's sway by the fall's damping, 4e-6 m, is the worst: 3.5e-3 and 3.8e-3 of that,
+    // as the compiler arranges the same sums.
+    CHECK(truth.doubt <= 5e-3 * size + 1e-12);
     // The tagline feels the fall's stiffness through the load's swing alone, 2e-5 N for a kN: 1e-9 N of rounding shows.
     const double seen = key == "wires.fall.axial_stiffness_kN" && channels[k] == "tagline.tension" ? 1e-9 : 1e-12;
     CHECK(error <= 1e-5 * size + 2.0 * truth.doubt + seen + (channels[k] == "fall.tension" ? rounding : 0.0));
