@@ -94,6 +94,8 @@ void read_document(Node root, Case& c) {
   findings.throw_if_any();
   read_files_of(c, root, findings);
   findings.throw_if_any();
+  check_crane_seas(c, root, findings);
+  findings.throw_if_any();
   if (c.title.empty()) c.title = c.name;
   c.specification.name = c.name;
   for (JointSpec& joint : c.specification.joints) joint.axis.normalize();

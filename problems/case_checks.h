@@ -43,6 +43,9 @@ void check_operability(const Case& c, const Node& root, Findings& findings);
 /// Hours of daylight, phases and what stands beside them.
 void check_weather(const WeatherSpec& weather, const Node& root, Findings& findings);
 
+/// Each crane with capacity curves has one for the active sea. The files of the seas must have been read.
+void check_crane_seas(const Case& c, const Node& root, Findings& findings);
+
 /// A key that a search or a fit changes, and the entry that asks for it.
 struct VariedKey {
   std::string entry, key;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/case_checks.h"
 #include "problems/case_format.h"
 #include "problems/entry_check.h"
 #include "sim/crane_parts.h"
@@ -16,17 +17,6 @@ std::string quoted_list(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
   return list;
-}
-
-/// No curve of the crane holds in the active sea. Told once, at the one for the highest seas.
-void check_sea_height(const CraneCurveSpec& curve, EntryCheck& check) {
-  const Specification& s = check.specification();
-  if (curve_of(s, curve.crane)) return;
-  for (const CraneCurveSpec& other : s.crane_curves)
-    if (other.crane == curve.crane && other.significant_height > curve.significant_height) return;
-  check.report("up_to_significant_height_m",
-               fmt::format("is {:.4g}, but the active sea \"{}\" has a height of {:.4g} m: \"{}\" has no curve for it",
-                           curve.significant_height, s.sea.active, curve_sea_height(s), curve.crane));
 }
 
 }  // namespace
@@ -90,7 +80,20 @@ void check_crane_curve(const CraneCurveSpec& curve, EntryCheck& check) {
     if (&other < &curve && other.crane == curve.crane && other.significant_height == curve.significant_height)
       check.report("up_to_significant_height_m",
                    fmt::format("is that of \"{}\" as well: one curve for one height of sea", other.name));
-  check_sea_height(curve, check);
+}
+
+void check_crane_seas(const Case& c, const Node& root, Findings& findings) {
+  const Specification& s = c.specification;
+  for (const std::string& crane : cranes_with_curves(s)) {
+    if (curve_of(s, crane)) continue;
+    const CraneCurveSpec* highest = nullptr;  // where it is told
+    for (const CraneCurveSpec& curve : s.crane_curves)
+      if (curve.crane == crane && (!highest || curve.significant_height > highest->significant_height)) highest = &curve;
+    EntryCheck(s, root, findings, "crane_curves." + highest->name)
+        .report("up_to_significant_height_m",
+                fmt::format("is {:.4g}, but the active sea \"{}\" has a height of {:.4g} m: \"{}\" has no curve for it",
+                            highest->significant_height, s.sea.active, curve_sea_height(s), crane));
+  }
 }
 
 }  // namespace stillhook

@@ -139,6 +139,14 @@ TEST_CASE("the curve of the lowest sea that holds counts", "[crane_curve]") {
   CHECK(name(case_of(pedestal(kRough + kCalm))) == "harbour");
   CHECK(name(case_of(pedestal(kRough + kCalm, kSea))) == "offshore");
   CHECK(curve_sea_height(case_of(pedestal("", kSea)).specification) == Approx(1.5).epsilon(1e-6));
+  // The height of a sea from a file is that in the file.
+  const std::string file = "[sea]\nactive = \"hindcast\"\n[[sea.states]]\nname = \"hindcast\"\ntype = \"spectrum\"\nspectrum_file = "
+                           "\"era5_like_spectrum.nc\"\ntime = \"2026-11-30T06:00\"\nbearing_of_x_deg = 300.0\nscale_to_height_m = ";
+  const std::string folder = STILLHOOK_SOURCE_DIR "/docs/examples";
+  CHECK(name(read_case_text(pedestal(kRough + kCalm, file + "1.9\n"), "pedestal.toml", folder)) == "offshore");
+  CHECK_THROWS_WITH(read_case_text(pedestal(kRough + kCalm, file + "2.1\n"), "pedestal.toml", folder),
+                    Contains("[crane_curves.offshore] up_to_significant_height_m: is 2, but the active sea \"hindcast\" has "
+                             "a height of 2.1 m"));
   // No curve is stretched to a sea that it was not made for.
   CHECK_THAT(refusal(pedestal(kCalm, kSea)), Contains("[crane_curves.harbour] up_to_significant_height_m: is 0.5") &&
                                                  Contains("\"sea\" has a height of 1.5 m"));
