@@ -7,29 +7,12 @@
 #include "results/html.h"
 #include "sim/crane_parts.h"
 #include "sim/lifting/wire.h"
-#include "sim/run_channels.h"
 #include "sim/spatial/constants.h"
-#include "sim/spatial/pose.h"
 
 namespace stillhook {
 namespace {
 
 constexpr double kSameRadius = 0.25, kSameElevation = 0.5;  // m and deg: booms no further apart go together
-
-/// Where a point of a body goes; empty if the body was not recorded.
-std::vector<Vector3> path_of(const RunView& view, const std::string& body, const Vector3& point) {
-  std::vector<Vector3> path;
-  if (body == "world") return std::vector<Vector3>(view.run().time.size(), point);
-  std::array<std::span<const double>, 6> pose;
-  for (std::size_t i = 0; i < pose.size(); ++i) {
-    pose[i] = view.series(body_channels::pose[i].of(body));
-    if (pose[i].empty()) return path;
-  }
-  const auto& [x, y, z, roll, pitch, yaw] = pose;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    path.push_back(Vector3(x[i], y[i], z[i]) + rotation_from({roll[i], pitch[i], yaw[i]}) * point);
-  return path;
-}
 
 const JointSpec* joint_below(const Specification& s, const std::string& body) {
   const auto found = std::find_if(s.joints.begin(), s.joints.end(), [&](auto& j) { return j.child == body; });
@@ -55,11 +38,11 @@ Boom boom_along(const RunView& view, const std::string& name) {
   Boom boom{name, vessel_under(s, name), hoist_wires_of(s, name), {}, {}};
   const JointSpec* hinge = joint_below(s, name);
   if (!hinge) return boom;
-  const std::optional<BoomAxis> axis = boom_axis(s, name);
+  const std::optional<PlaceOnBody> axis = boom_axis(s, name);
   if (!axis) return boom;
-  const std::vector<Vector3> ends = path_of(view, name, mean_wire_end(s, name)),
-                             hinges = path_of(view, hinge->parent, hinge->point_on_parent),
-                             axes = path_of(view, axis->body, axis->point);
+  const std::vector<Vector3> ends = path_of(view, {name, mean_wire_end(s, name)}),
+                             hinges = path_of(view, {hinge->parent, hinge->point_on_parent}),
+                             axes = path_of(view, *axis);
   if (ends.empty() || hinges.size() != ends.size() || axes.size() != ends.size()) return boom;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     boom.radius.push_back((ends[i] - axes[i]).head<2>().norm());
@@ -116,12 +99,13 @@ std::vector<CraneReading> crane_readings(const RunView& view) {
         several ? " " + readable_name(beside > 1 || crane.vessel == "world" ? crane.name : crane.vessel) : "";
     if (several) add("hook load" + of, "t", 0, sum_of_tensions(view, crane.wires));
     add("radius" + of, "m", 1, std::move(crane.radius));
-    for (const std::string& name : {crane.name, crane.vessel}) {
-      std::vector<double> use = crane_use(view, name).use;
-      for (double& share : use) share *= 100.0;
-      add("crane use" + of, "%", 0, std::move(use));
-    }
     add("boom angle" + of, "°", 1, std::move(crane.elevation));
+  }
+  const std::vector<std::string> judged = cranes_with_curves(s);
+  for (const std::string& crane : judged) {
+    std::vector<double> use = crane_use(view, crane).use;
+    for (double& share : use) share *= 100.0;
+    add("crane use" + (judged.size() > 1 ? " " + readable_name(crane) : ""), "%", 0, std::move(use));
   }
   return out;
 }

@@ -1,9 +1,9 @@
 #include "results/crane_use.h"
 
-#include <map>
+#include <algorithm>
+#include <array>
 
 #include "results/metrics/channel_set.h"
-#include "sim/crane_parts.h"
 #include "sim/lifting/wire.h"
 #include "sim/run_channels.h"
 #include "sim/spatial/pose.h"
@@ -12,14 +12,16 @@
 namespace stillhook {
 namespace {
 
-/// The bodies whose poses say the radius of a crane.
-std::vector<std::string> bodies_of(const Specification& s, const std::string& crane) {
-  std::vector<std::string> bodies;
-  crane_radius(s, crane, [&](const std::string& body, const Vector3& point) {
-    if (body != "world") bodies.push_back(body);
-    return point;
-  });
-  return bodies;
+/// The mean of several points along a run; empty if one of their bodies was not recorded.
+std::vector<Vector3> mean_path(const RunView& view, const std::vector<PlaceOnBody>& places) {
+  std::vector<Vector3> mean;
+  for (const PlaceOnBody& place : places) {
+    const std::vector<Vector3> path = path_of(view, place);
+    if (path.empty()) return path;
+    mean.resize(path.size(), Vector3::Zero());
+    for (std::size_t i = 0; i < path.size(); ++i) mean[i] += path[i] / static_cast<double>(places.size());
+  }
+  return mean;
 }
 
 /// Sum of the tensions at sample i, as they are or as they would be at rest.
@@ -56,9 +58,25 @@ class HookLoad {
 
 }  // namespace
 
+std::vector<Vector3> path_of(const RunView& view, const PlaceOnBody& place) {
+  std::vector<Vector3> path;
+  if (place.body == "world") return std::vector<Vector3>(view.run().time.size(), place.point);
+  std::array<std::span<const double>, 6> pose;
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    pose[i] = view.series(body_channels::pose[i].of(place.body));
+    if (pose[i].empty()) return path;
+  }
+  const auto& [x, y, z, roll, pitch, yaw] = pose;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    path.push_back(Vector3(x[i], y[i], z[i]) + rotation_from({roll[i], pitch[i], yaw[i]}) * place.point);
+  return path;
+}
+
 void add_crane_channels(ChannelSet& channels, const std::string& crane) {
   const Specification& s = channels.specification();
-  for (const std::string& body : bodies_of(s, crane)) channels.add_pose(body);
+  const CraneReach reach = crane_reach(s, crane);
+  for (const auto& places : {reach.axes, reach.hooks})
+    for (const PlaceOnBody& place : places) channels.add_pose(place.body);
   for (const std::string& wire : hoist_wires_of(s, crane)) channels.add(wire_channels::tension.of(wire));
 }
 
@@ -67,23 +85,14 @@ CraneUse crane_use(const RunView& view, const std::string& crane) {
   CraneUse out;
   out.curve = curve_of(s, crane);
   if (!out.curve) return out;
-  std::map<std::string, std::array<std::span<const double>, 6>> poses;
-  for (const std::string& body : bodies_of(s, crane))
-    for (std::size_t i = 0; i < 6; ++i) {
-      poses[body][i] = view.series(body_channels::pose[i].of(body));
-      if (poses[body][i].empty()) return out;
-    }
+  const CraneReach reach = crane_reach(s, crane);
+  const std::vector<Vector3> axis = mean_path(view, reach.axes), hook = mean_path(view, reach.hooks);
   const HookLoad load(view, hoist_wires_of(s, crane), out.curve->basis);
-  if (!load.recorded()) return out;
+  if (axis.empty() || hook.empty() || !load.recorded()) return out;
   for (std::size_t p = 0; p < view.run().phases.size(); ++p) {
     const RunView::Range range = view.samples(p);
     for (std::size_t i = std::max(range.first, out.radius.size()); i < range.last; ++i) {
-      const auto place = [&](const std::string& body, const Vector3& point) -> Vector3 {
-        if (body == "world") return point;
-        const auto& [x, y, z, roll, pitch, yaw] = poses.at(body);
-        return Vector3(x[i], y[i], z[i]) + rotation_from({roll[i], pitch[i], yaw[i]}) * point;
-      };
-      out.radius.push_back(*crane_radius(s, crane, place));
+      out.radius.push_back((hook[i] - axis[i]).head<2>().norm());
       out.load.push_back(load.at(p, i));
       out.use.push_back(out.load.back() / nearest_capacity(*out.curve, out.radius.back()));
     }

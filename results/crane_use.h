@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "results/run_view.h"
+#include "sim/crane_parts.h"
 
 namespace stillhook {
 
@@ -17,6 +18,9 @@ struct CraneUse {
   std::vector<double> load;    // N: what the curve bounds, the hook load in waves or that at rest
   std::vector<double> use;     // 1: load over capacity; outside the curve's radii over that of its nearest end
 };
+
+/// Where a point of a body goes along a run, m, one place a sample; empty if the body was not recorded.
+std::vector<Vector3> path_of(const RunView& view, const PlaceOnBody& place);
 
 /// Adds the channels that crane_use() reads.
 void add_crane_channels(ChannelSet& channels, const std::string& crane);

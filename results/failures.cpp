@@ -117,7 +117,8 @@ void find_outside_curve(const RunView& view, std::vector<Failure>& failures) {
                                                     crane, curve_sea_height(s))});
       continue;
     }
-    const double most = use.load.empty() ? 0.0 : *std::max_element(use.load.begin(), use.load.end());
+    double most = 0.0;
+    for (const double load : use.load) most = std::max(most, load);  // passes over moments without a load at rest
     for (std::size_t i = 0; i < use.radius.size(); ++i) {
       if (!(use.load[i] > kCarries * most) || std::isfinite(capacity_at(*use.curve, use.radius[i]))) continue;
       const double t = view.run().time[i];

@@ -95,7 +95,7 @@ std::vector<std::string> hoist_wires_of(const Specification& s, const std::strin
   return names;
 }
 
-std::optional<BoomAxis> boom_axis(const Specification& s, const std::string& boom) {
+std::optional<PlaceOnBody> boom_axis(const Specification& s, const std::string& boom) {
   const JointSpec* hinge = joint_under(s, boom);
   if (!hinge) return std::nullopt;
   std::string body = boom;
@@ -104,30 +104,23 @@ std::optional<BoomAxis> boom_axis(const Specification& s, const std::string& boo
     if (!joint) break;
     if (joint->type == JointSpec::Type::revolute && joint->axis.norm() > 0.0 &&
         std::abs(joint->axis.normalized().z()) > kUpright)
-      return BoomAxis{joint->parent, joint->point_on_parent};
+      return PlaceOnBody{joint->parent, joint->point_on_parent};
     body = joint->parent;
   }
-  return BoomAxis{hinge->parent, hinge->point_on_parent};
+  return PlaceOnBody{hinge->parent, hinge->point_on_parent};
 }
 
-std::optional<double> crane_radius(const Specification& s, const std::string& crane,
-                                   const std::function<Vector3(const std::string&, const Vector3&)>& place) {
-  Vector3 hooks = Vector3::Zero(), axes = Vector3::Zero();
-  int hook_count = 0, axis_count = 0;
+CraneReach crane_reach(const Specification& s, const std::string& crane) {
+  CraneReach reach;
   for (const std::string& boom : boom_bodies(s)) {
     if (boom != crane && vessel_under(s, boom) != crane) continue;
-    const std::optional<BoomAxis> axis = boom_axis(s, boom);
+    const std::optional<PlaceOnBody> axis = boom_axis(s, boom);
     if (!axis) continue;
-    axes += place(axis->body, axis->point);
-    ++axis_count;
+    reach.axes.push_back(*axis);
     for (const WireSpec& wire : s.wires)
-      if (wire.role == WireSpec::Role::hoist && wire.from == boom) {
-        hooks += place(wire.to, wire.point_to);
-        ++hook_count;
-      }
+      if (wire.role == WireSpec::Role::hoist && wire.from == boom) reach.hooks.push_back({wire.to, wire.point_to});
   }
-  if (axis_count == 0 || hook_count == 0) return std::nullopt;
-  return (hooks / hook_count - axes / axis_count).head<2>().norm();
+  return reach;
 }
 
 Vector3 boom_athwart(const Specification& s, const std::string& body) {

@@ -2,7 +2,6 @@
 // end of a hoist wire, its vessel the body at which the joints under it end.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,21 +32,23 @@ std::vector<std::string> hoist_wires(const Specification& s);
 /// The hoist wires that hang on a boom, or on any boom of a vessel.
 std::vector<std::string> hoist_wires_of(const Specification& s, const std::string& crane);
 
-/// Where the radius of a boom is measured from: a point of the upright axis that it slews about, or of the hinge under it.
-struct BoomAxis {
-  std::string body;  // that the point belongs to; may be "world"
+/// A point of a body; of "world" it is one in the world.
+struct PlaceOnBody {
+  std::string body;
   Vector3 point = Vector3::Zero();  // m, in its frame
 };
 
-/// Of the first upright joint on the way down to the vessel, else of the joint under the boom; nothing of a boom without
-/// one.
-std::optional<BoomAxis> boom_axis(const Specification& s, const std::string& boom);
+/// Where the radius of a boom is measured from: a point of the first upright axis on the way down to the vessel, about which
+/// it slews, else the joint under the boom; nothing of a boom without one.
+std::optional<PlaceOnBody> boom_axis(const Specification& s, const std::string& boom);
 
-/// Horizontal distance of the hooks from the axes, m: the means over the hoist wires and over the booms of a crane, so
-/// that two booms side by side have the radius of what hangs between them. `place` says where a point of a body stands in
-/// the world. Nothing of a crane of which no boom has an axis.
-std::optional<double> crane_radius(const Specification& s, const std::string& crane,
-                                   const std::function<Vector3(const std::string& body, const Vector3& point)>& place);
+/// What the radius of a crane lies between: the axes of its booms and the lower ends of their hoist wires. It is the
+/// horizontal distance of their means, so that two booms side by side have the radius of what hangs between them. Empty of
+/// a crane of which no boom has an axis.
+struct CraneReach {
+  std::vector<PlaceOnBody> axes, hooks;
+};
+CraneReach crane_reach(const Specification& s, const std::string& crane);
 
 /// Unit normal of the plane of a boom, in the axes of its body, to port of someone who looks from the joint under it
 /// towards the hoist wires. A boom that luffs has its plane square to the axis of the hinge. Of one that only slews,

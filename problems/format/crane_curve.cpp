@@ -71,8 +71,7 @@ void check_crane_curve(const CraneCurveSpec& curve, EntryCheck& check) {
                                                        : "a curve can be of " + quoted_list(cranes)));
     return;
   }
-  const bool axis = crane_radius(s, curve.crane, [](const std::string&, const Vector3& p) { return p; }).has_value();
-  if (!axis)
+  if (crane_reach(s, curve.crane).axes.empty())
     check.report("crane", fmt::format("\"{}\" has no joint to measure a radius from: a boom stands on a hinge or a "
                                       "slewing ring",
                                       curve.crane));

@@ -22,10 +22,20 @@ double hook_load(const StaticPose& pose, const std::vector<std::string>& wires) 
   return sum;
 }
 
+Vector3 mean_place(const Model& model, const StaticPose& pose, const std::vector<PlaceOnBody>& places) {
+  Vector3 sum = Vector3::Zero();
+  for (const PlaceOnBody& place : places) {
+    const int index = model.body_index(place.body);
+    sum += index == kWorld ? place.point : pose.bodies[static_cast<std::size_t>(index)] * place.point;
+  }
+  return sum / static_cast<double>(places.size());
+}
+
 ReportTable table_of_crane(const Model& model, const std::vector<StaticPose>& poses, const std::string& crane,
                            const CraneCurveSpec& curve) {
   const Specification& spec = model.specification();
   const std::vector<std::string> wires = hoist_wires_of(spec, crane);
+  const CraneReach reach = crane_reach(spec, crane);
   ReportTable table;
   table.title = "Use of " + crane;
   table.note = fmt::format(
@@ -36,11 +46,8 @@ ReportTable table_of_crane(const Model& model, const std::vector<StaticPose>& po
     table.note += " The curve bounds the load at rest: its maker has taken the amplification off.";
   table.header = {"pose", "radius m", "hook load t", "capacity t", "use %", "DAF left"};
   for (const StaticPose& pose : poses) {
-    const auto place = [&](const std::string& body, const Vector3& point) -> Vector3 {
-      const int index = model.body_index(body);
-      return index == kWorld ? point : pose.bodies[static_cast<std::size_t>(index)] * point;
-    };
-    const double radius = crane_radius(spec, crane, place).value_or(kNaN), load = hook_load(pose, wires);
+    const double radius = (mean_place(model, pose, reach.hooks) - mean_place(model, pose, reach.axes)).head<2>().norm();
+    const double load = hook_load(pose, wires);
     const double capacity = capacity_at(curve, radius);
     const bool inside = std::isfinite(capacity);
     table.rows.push_back({pose.name, cell(radius, 2), cell(load / kTonneOfForce, 1),
