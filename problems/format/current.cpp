@@ -88,6 +88,13 @@ void check_entry(const CurrentAreaSpec& area, EntryCheck& check) {
 
 void check_entry(const CurrentHullSpec& hull, EntryCheck& check) {
   check_hull(hull, "current", check);
+  const Specification& s = check.specification();
+  const BodySpec* body = entry_named(s.bodies, hull.body);
+  if (body && body->hull.shape == HullSpec::Shape::box && hull.draft > body->hull.size.z())
+    check.report("draft_m", fmt::format("is {:.4g} m, more than the depth of the hull of \"{}\", {:.4g} m", hull.draft,
+                                        hull.body, body->hull.size.z()));
+  if (s.sea.depth > 0.0 && hull.draft >= s.sea.depth)
+    check.report("draft_m", fmt::format("is {:.4g} m in water of sea.depth_m = {:.4g} m", hull.draft, s.sea.depth));
   wants_current(check);
 }
 
